@@ -1,0 +1,43 @@
+# What every target is compiled with, and the three ways this project declares targets.
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+
+add_library(arift_options INTERFACE)
+target_include_directories(arift_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/generated)
+target_compile_options(arift_options INTERFACE -Wall -Wextra -Wshadow -Wno-missing-field-initializers -Werror)
+target_compile_definitions(arift_options INTERFACE XR_NO_PROTOTYPES)
+if(ARIFT_SANITIZE)
+  target_compile_options(arift_options INTERFACE -fsanitize=${ARIFT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(arift_options INTERFACE -fsanitize=${ARIFT_SANITIZE})
+endif()
+find_program(ARIFT_CCACHE ccache)
+if(ARIFT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${ARIFT_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${ARIFT_CCACHE})
+endif()
+
+# A room: a static library of its own sources. arift_room(optics SOURCES a.cpp b.cpp USES arift_base toml)
+function(arift_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;USES;PRIVATE_USES" ${ARGN})
+  add_library(arift_${name} STATIC ${ROOM_SOURCES})
+  target_link_libraries(arift_${name} PUBLIC arift_options ${ROOM_USES} PRIVATE ${ROOM_PRIVATE_USES})
+endfunction()
+
+# A test program of GoogleTest cases, every case a CTest test. arift_test(optics SOURCES x.cpp USES arift_optics LABELS unit threads)
+function(arift_test name)
+  cmake_parse_arguments(TEST "" "TIMEOUT" "SOURCES;USES;LABELS;ENVIRONMENT" ${ARGN})
+  if(NOT TEST_TIMEOUT)
+    set(TEST_TIMEOUT 120)
+  endif()
+  add_executable(test_${name} ${TEST_SOURCES})
+  target_link_libraries(test_${name} PRIVATE arift_options ${TEST_USES} GTest::gtest GTest::gtest_main)
+  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
+    PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT ${TEST_TIMEOUT} ENVIRONMENT "${TEST_ENVIRONMENT}")
+endfunction()
+
+# A Google Benchmark program; run by tools/test.sh, which prints its figures.
+function(arift_benchmark name)
+  cmake_parse_arguments(BENCH "" "" "SOURCES;USES" ${ARGN})
+  add_executable(bench_${name} ${BENCH_SOURCES})
+  target_link_libraries(bench_${name} PRIVATE arift_options ${BENCH_USES} benchmark::benchmark benchmark::benchmark_main)
+endfunction()

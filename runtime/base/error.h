@@ -1,0 +1,19 @@
+// What goes wrong with something a person gave us: says where, what was found and what was expected.
+#pragma once
+#include "runtime/base/log.h"
+#include <stdexcept>
+#include <string>
+
+namespace arift {
+
+/// Bad input from outside (a file, a command line, a message). `what()` is one sentence fit to be shown as it is.
+struct InputError : std::runtime_error {
+	using std::runtime_error::runtime_error;
+	template <typename... Args>
+	explicit InputError(fmt::format_string<Args...> format, Args &&...args)
+		: std::runtime_error(fmt::format(format, std::forward<Args>(args)...))
+	{
+	}
+};
+
+} // namespace arift

@@ -1,0 +1,141 @@
+#include "runtime/base/toml.h"
+#include <sstream>
+
+namespace arift {
+
+namespace {
+
+std::string shown(const toml::node &node)
+{
+	std::ostringstream text;
+	node.visit([&](const auto &value) { text << value; });
+	std::string result = text.str();
+	if (result.size() > 60) result = result.substr(0, 57) + "...";
+	return result;
+}
+
+const toml::table emptyTable;
+
+} // namespace
+
+std::string TomlTable::where(const toml::node &node) const { return fmt::format("{}:{}", file_, node.source().begin.line); }
+
+void TomlTable::complain(const char *key, std::string_view expected) const
+{
+	const toml::node *node = table_->get(key);
+	const std::string name = path_.empty() ? key : path_ + "." + key;
+	if (!node) throw InputError("{}: {} is missing, expected {}", where(*table_), name, expected);
+	throw InputError("{}: {} = {}, expected {}", where(*node), name, shown(*node), expected);
+}
+
+const toml::node &TomlTable::node(const char *key, std::string_view expected)
+{
+	asked_.insert(key);
+	const toml::node *node = table_->get(key);
+	if (!node) complain(key, expected);
+	return *node;
+}
+
+double TomlTable::number(const char *key, double low, double high)
+{
+	const std::string expected = fmt::format("a number from {} to {}", low, high);
+	const auto value = node(key, expected).value<double>();
+	if (!value || !(*value >= low && *value <= high)) complain(key, expected);
+	return *value;
+}
+
+int64_t TomlTable::integer(const char *key, int64_t low, int64_t high)
+{
+	const std::string expected = fmt::format("a whole number from {} to {}", low, high);
+	const toml::node &found = node(key, expected);
+	const auto value = found.value<int64_t>();
+	if (!found.is_integer() || !value || *value < low || *value > high) complain(key, expected);
+	return *value;
+}
+
+bool TomlTable::boolean(const char *key, bool otherwise)
+{
+	asked_.insert(key);
+	if (!has(key)) return otherwise;
+	const toml::node &found = node(key, "true or false");
+	if (!found.is_boolean()) complain(key, "true or false");
+	return *found.value<bool>();
+}
+
+std::string TomlTable::text(const char *key)
+{
+	const toml::node &found = node(key, "a text in quotes");
+	if (!found.is_string()) complain(key, "a text in quotes");
+	return *found.value<std::string>();
+}
+
+size_t TomlTable::choice(const char *key, std::initializer_list<const char *> choices, size_t otherwise)
+{
+	asked_.insert(key);
+	if (!has(key)) return otherwise;
+	const auto value = table_->get(key)->value<std::string>();
+	std::string expected = "one of";
+	size_t index = 0;
+	for (const char *choice : choices) {
+		if (value == choice) return index;
+		expected += fmt::format("{} \"{}\"", index++ ? "," : "", choice);
+	}
+	complain(key, expected);
+}
+
+std::vector<double> TomlTable::numbers(const char *key, size_t size)
+{
+	const std::string expected = size ? fmt::format("an array of {} numbers", size) : std::string("an array of numbers");
+	const toml::array *array = node(key, expected).as_array();
+	if (!array || (size && array->size() != size)) complain(key, expected);
+	std::vector<double> values;
+	for (const toml::node &element : *array) {
+		const auto value = element.value<double>();
+		if (!value || !std::isfinite(*value)) complain(key, expected);
+		values.push_back(*value);
+	}
+	return values;
+}
+
+TomlTable TomlTable::table(const char *key, bool required)
+{
+	asked_.insert(key);
+	const std::string path = path_.empty() ? key : path_ + "." + key;
+	if (!has(key) && !required) return {emptyTable, file_, path};
+	const toml::table *found = node(key, "a table").as_table();
+	if (!found) complain(key, "a table");
+	return {*found, file_, path};
+}
+
+std::vector<TomlTable> TomlTable::tables(const char *key)
+{
+	asked_.insert(key);
+	std::vector<TomlTable> result;
+	if (!has(key)) return result;
+	const toml::array *array = table_->get(key)->as_array();
+	if (!array) complain(key, "an array of tables");
+	for (const toml::node &element : *array) {
+		if (!element.is_table()) complain(key, "an array of tables");
+		result.emplace_back(*element.as_table(), file_, fmt::format("{}[{}]", path_.empty() ? key : path_ + "." + key, result.size()));
+	}
+	return result;
+}
+
+void TomlTable::finish() const
+{
+	for (const auto &[key, value] : *table_)
+		if (!asked_.contains(key.str()))
+			throw InputError("{}: unknown key {}{}{} = {}", where(value), path_, path_.empty() ? "" : ".", key.str(), shown(value));
+}
+
+toml::table parseTomlFile(const std::filesystem::path &file)
+{
+	if (!std::filesystem::exists(file)) throw InputError("{}: no such file", file.string());
+	try {
+		return toml::parse_file(file.string());
+	} catch (const toml::parse_error &error) {
+		throw InputError("{}:{}: {}", file.string(), error.source().begin.line, error.description());
+	}
+}
+
+} // namespace arift

@@ -1,0 +1,54 @@
+// Turns PanelInputs into one panel image on the GPU: camera images, layers, timewarp per line, lens and chromatic correction, one pass.
+#pragma once
+#include "runtime/compositor/panel_inputs.h"
+#include "runtime/gpu/image_spec.h"
+#include <memory>
+#include <span>
+
+namespace arift {
+
+struct Rig;
+namespace gpu {
+class Device;
+}
+
+/// One rendered panel or eye image read back: rows of RGBA8 (sRGB encoded) or RGBA16 (linear) as the renderer's format says.
+struct ReadbackImage {
+	uint32_t width = 0, height = 0;
+	VkFormat format = VK_FORMAT_UNDEFINED;
+	std::vector<std::byte> pixels;
+};
+
+/// Thread-bound. Builds every pipeline in its constructor.
+class PanelRenderer {
+public:
+	/// `format` of the panel image: VK_FORMAT_R8G8B8A8_SRGB, or VK_FORMAT_R16G16B16A16_UNORM (linear light) for measurements.
+	PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat format = VK_FORMAT_R8G8B8A8_SRGB);
+	~PanelRenderer();
+
+	/// Memory for camera images that the GPU reads without a copy on the CPU.
+	FrameAllocator frameAllocator();
+	/// An application's image. It must be in its boundary layout, owned by VK_QUEUE_FAMILY_EXTERNAL, whenever render() is given it.
+	void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec);
+	void removeImage(uint64_t key);
+
+	/// Draws and waits until the GPU is done (bounded: throws std::runtime_error after a second). The result stays in image().
+	void render(const PanelInputs &inputs);
+
+	/// GPU and CPU cost of the last render, seconds.
+	struct Cost { double record = 0, wait = 0; };
+	Cost cost() const;
+
+	/// The panel image; layout TRANSFER_SRC_OPTIMAL after render(). For targets (window, offscreen).
+	VkImage image() const;
+	VkExtent2D extent() const;
+	ReadbackImage readPanel();
+	/// Both eyes side by side before the lens correction, drawn from the inputs of the last render() at the default field of view.
+	ReadbackImage renderEyes(const PanelInputs &inputs);
+
+private:
+	struct Implementation;
+	std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace arift

@@ -1,0 +1,29 @@
+// What a shared image is, in terms both processes agree on. Plain data and pure functions over Vulkan's C types: the client library
+// makes its import of an image from exactly the numbers with which the service made the image.
+#pragma once
+#include <cstdint>
+#include <vulkan/vulkan_core.h>
+
+namespace arift::gpu {
+
+/// Fixed width: travels in messages.
+struct ImageSpec {
+	int32_t format = 0;        ///< VkFormat
+	uint32_t usage = 0;        ///< VkImageUsageFlags
+	uint32_t createFlags = 0;  ///< VkImageCreateFlags
+	uint32_t width = 0, height = 0;
+	uint32_t arrayLayers = 1;  ///< faces included
+	uint32_t mipLevels = 1;
+	uint32_t samples = 1;
+};
+
+/// The VkImageCreateInfo of the image on both sides; `external` must outlive it and is filled and chained in.
+VkImageCreateInfo imageCreateInfo(const ImageSpec &spec, VkExternalMemoryImageCreateInfo &external);
+
+constexpr VkExternalMemoryHandleTypeFlagBits sharedHandleType = VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT;
+
+/// The layout in which an application hands an image over and gets it back: OpenXR 1.1 §12.19 (XR_KHR_vulkan_enable2), "Swapchain Image Layout".
+VkImageLayout boundaryLayout(VkFormat format);
+bool isDepth(VkFormat format);
+
+} // namespace arift::gpu

@@ -1,0 +1,237 @@
+// The wire between an application and the service: one SOCK_SEQPACKET message each, fixed-width plain structs, no pointers.
+// A connection starts with Hello / Welcome. Every request has exactly one reply of the same `sequence`.
+// The frame channel (a second socket, one per session) carries WaitFrame / FrameReady and Submission.
+#pragma once
+#include "runtime/gpu/image_spec.h"
+#include "runtime/ipc/pages.h"
+#include <cstdint>
+#include <openxr/openxr.h>
+
+namespace arift::ipc {
+
+constexpr uint32_t magic = 0x54465241; // "ARFT"
+constexpr uint32_t protocol = 1;       // raised with every change of this file or of pages.h
+constexpr uint32_t maxFds = 16;        // per message
+constexpr uint32_t maxImages = 8;      // per swapchain
+constexpr uint32_t maxLayers = 16;     // per submission
+
+enum class MessageType : uint32_t {
+	// application or monitor -> service -> back
+	hello = 1, welcome,
+	createSession, sessionCreated,
+	destroySession,
+	sessionRunning, // begin and end
+	createSwapchain, swapchainCreated,
+	destroySwapchain,
+	done, // the reply without content
+	failed, // the reply to a request that could not be met
+	// frame channel
+	waitFrame = 100, frameReady, submission, relinquish,
+	// monitors
+	getStatus = 200, status, // status: fd of a sealed memfd with JSON text
+	screenshot, picture,     // picture: fd of a sealed memfd with RGBA8 rows
+	setSetting,              // reply: done or failed
+	recenter,
+	shutDown,
+};
+
+struct Header {
+	MessageType type;
+	uint32_t sequence = 0;
+};
+
+enum class Role : uint32_t { application, monitor };
+
+struct Hello {
+	static constexpr MessageType type = MessageType::hello;
+	Header header{type};
+	uint32_t magic = ipc::magic;
+	uint32_t protocol = ipc::protocol;
+	char build[48]{};               ///< of the library: shown when protocols differ
+	Role role = Role::application;
+	uint32_t pid = 0;
+	uint64_t apiVersion = 0;        ///< XrVersion the application asked for
+	char applicationName[128]{};
+	char engineName[128]{};
+};
+
+/// fds: SystemPage, PoseRing, ClientPage (the last for applications only).
+struct Welcome {
+	static constexpr MessageType type = MessageType::welcome;
+	Header header{type};
+	uint32_t protocol = ipc::protocol;
+	uint32_t reserved = 0;
+	char build[48]{};
+	char systemName[128]{};
+	uint32_t recommendedWidth = 0, recommendedHeight = 0; ///< pixels per view
+	uint32_t maxWidth = 0, maxHeight = 0;
+	uint32_t maxLayers = ipc::maxLayers;
+	uint32_t blendModeCount = 0;
+	std::array<int32_t, 4> blendModes{};   ///< XrEnvironmentBlendMode in the runtime's order of preference
+	uint32_t orientationTracking = 1, positionTracking = 0;
+	std::array<uint8_t, 16> deviceUuid{}, driverUuid{}; ///< of the service's GPU
+	uint32_t deviceType = 0;               ///< VkPhysicalDeviceType
+	uint32_t steppedClock = 0;
+};
+
+/// fds of the reply: the application's end of the frame channel.
+struct CreateSession {
+	static constexpr MessageType type = MessageType::createSession;
+	Header header{type};
+	std::array<uint8_t, 16> deviceUuid{}, driverUuid{}; ///< of the application's GPU
+	uint32_t headless = 0;
+	uint32_t reserved = 0;
+};
+struct SessionCreated {
+	static constexpr MessageType type = MessageType::sessionCreated;
+	Header header{type};
+	uint32_t session = 0;
+	uint32_t reserved = 0;
+};
+struct DestroySession {
+	static constexpr MessageType type = MessageType::destroySession;
+	Header header{type};
+	uint32_t session = 0;
+	uint32_t reserved = 0;
+};
+struct SessionRunning {
+	static constexpr MessageType type = MessageType::sessionRunning;
+	Header header{type};
+	uint32_t session = 0;
+	uint32_t running = 0;
+};
+
+/// fds of the reply: one opaque memory fd per image. Every image is clear and in its boundary layout, owned by VK_QUEUE_FAMILY_EXTERNAL.
+struct CreateSwapchain {
+	static constexpr MessageType type = MessageType::createSwapchain;
+	Header header{type};
+	uint32_t session = 0;
+	uint32_t imageCount = 3;
+	gpu::ImageSpec spec;
+};
+struct SwapchainCreated {
+	static constexpr MessageType type = MessageType::swapchainCreated;
+	Header header{type};
+	uint32_t swapchain = 0;
+	uint32_t imageCount = 0;
+	uint64_t memorySize = 0;       ///< VkMemoryRequirements::size of each image
+	uint32_t memoryTypeIndex = 0;  ///< on the service's device
+	uint32_t reserved = 0;
+};
+struct DestroySwapchain {
+	static constexpr MessageType type = MessageType::destroySwapchain;
+	Header header{type};
+	uint32_t swapchain = 0;
+	uint32_t reserved = 0;
+};
+
+struct Done {
+	static constexpr MessageType type = MessageType::done;
+	Header header{type};
+};
+struct Failed {
+	static constexpr MessageType type = MessageType::failed;
+	Header header{type};
+	int32_t result = XR_ERROR_RUNTIME_FAILURE; ///< XrResult
+	uint32_t reserved = 0;
+	char text[240]{};
+};
+
+// ---- frame channel: requests by the application, FrameReady by the service
+
+struct WaitFrame {
+	static constexpr MessageType type = MessageType::waitFrame;
+	Header header{type};
+};
+struct FrameReady {
+	static constexpr MessageType type = MessageType::frameReady;
+	Header header{type};
+	XrTime predictedDisplayTime = 0;    ///< of the panel's middle line
+	XrDuration predictedDisplayPeriod = 0;
+	uint32_t shouldRender = 0;
+	uint32_t reserved = 0;
+};
+
+struct SubImage {
+	uint32_t swapchain = 0;
+	uint32_t image = 0;                 ///< index in the swapchain: the one released last
+	uint32_t arrayIndex = 0;
+	int32_t x = 0, y = 0;               ///< rectangle in texels, origin at the top left
+	int32_t width = 0, height = 0;
+	uint32_t reserved = 0;
+};
+enum class LayerType : uint32_t { projection, quad };
+enum class LayerFrame : uint32_t { origin /**< fixed in the world */, head /**< moves with the head (VIEW space) */ };
+struct LayerView {
+	XrPosef pose = identityPose;        ///< of the view in the layer's frame
+	XrFovf fov{};
+	SubImage image;
+};
+struct Layer {
+	LayerType type = LayerType::projection;
+	LayerFrame frame = LayerFrame::origin;
+	uint32_t flags = 0;                 ///< XrCompositionLayerFlags
+	uint32_t eyes = 3;                  ///< bit 0 left, bit 1 right
+	std::array<LayerView, 2> views;     ///< projection: both; quad: views[0].image and views[0].pose (the quad's centre)
+	float width = 0, height = 0;        ///< quad: metres
+};
+/// Sent when all work on the images it names is finished. Only the first `layerCount` layers are sent.
+struct Submission {
+	static constexpr MessageType type = MessageType::submission;
+	Header header{type};
+	uint64_t frame = 0;                 ///< counts the session's submissions from 1
+	XrTime displayTime = 0;
+	int32_t blendMode = 0;              ///< XrEnvironmentBlendMode
+	uint32_t layerCount = 0;
+	std::array<Layer, maxLayers> layers;
+};
+/// The application needs an image that is being shown: drop this and earlier submissions.
+struct Relinquish {
+	static constexpr MessageType type = MessageType::relinquish;
+	Header header{type};
+	uint64_t frame = 0;
+};
+
+// ---- monitors
+
+struct GetStatus {
+	static constexpr MessageType type = MessageType::getStatus;
+	Header header{type};
+	uint32_t resetFigures = 0;          ///< start the record of frame figures anew after answering
+	uint32_t reserved = 0;
+};
+struct Status {
+	static constexpr MessageType type = MessageType::status;
+	Header header{type};
+	uint64_t size = 0;                  ///< bytes of JSON in the memfd
+};
+enum class PictureKind : uint32_t { panel, eyes /**< both views side by side before the lens correction */ };
+struct Screenshot {
+	static constexpr MessageType type = MessageType::screenshot;
+	Header header{type};
+	PictureKind kind = PictureKind::panel;
+	uint32_t reserved = 0;
+};
+struct Picture {
+	static constexpr MessageType type = MessageType::picture;
+	Header header{type};
+	uint32_t width = 0, height = 0;     ///< RGBA8, sRGB encoded, rows without padding
+	XrTime displayTime = 0;             ///< of the middle line
+};
+enum class Setting : uint32_t { viewOffset, passthroughDistance };
+struct SetSetting {
+	static constexpr MessageType type = MessageType::setSetting;
+	Header header{type};
+	Setting setting = Setting::viewOffset;
+	float value = 0;
+};
+struct Recenter {
+	static constexpr MessageType type = MessageType::recenter;
+	Header header{type};
+};
+struct ShutDown {
+	static constexpr MessageType type = MessageType::shutDown;
+	Header header{type};
+};
+
+} // namespace arift::ipc

@@ -1,0 +1,120 @@
+// What the service publishes in shared memory that applications map read-only. Plain fixed-width data behind sequence words.
+#pragma once
+#include "runtime/base/clock.h"
+#include "runtime/base/pose.h"
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <type_traits>
+
+namespace arift::ipc {
+
+/// One writer, many readers of a small plain value, by a sequence word that is odd while the value is written.
+/// A reader gives up after a few tries: a writer killed half-way leaves the word odd for ever.
+template <typename T> class Published {
+	static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0);
+
+public:
+	void write(const T &value)
+	{
+		std::array<uint64_t, sizeof(T) / 8> words;
+		std::memcpy(words.data(), &value, sizeof(T));
+		const uint32_t sequence = sequence_.load(std::memory_order_relaxed);
+		sequence_.store(sequence + 1, std::memory_order_relaxed);
+		std::atomic_thread_fence(std::memory_order_release);
+		for (size_t i = 0; i < words.size(); ++i) words_[i].store(words[i], std::memory_order_relaxed);
+		sequence_.store(sequence + 2, std::memory_order_release);
+	}
+	std::optional<T> read() const
+	{
+		std::array<uint64_t, sizeof(T) / 8> words;
+		for (int attempt = 0; attempt < 64; ++attempt) {
+			const uint32_t before = sequence_.load(std::memory_order_acquire);
+			for (size_t i = 0; i < words.size(); ++i) words[i] = words_[i].load(std::memory_order_relaxed);
+			std::atomic_thread_fence(std::memory_order_acquire);
+			if (before == sequence_.load(std::memory_order_relaxed) && !(before & 1)) {
+				T value;
+				std::memcpy(static_cast<void *>(&value), words.data(), sizeof(T));
+				return value;
+			}
+		}
+		return std::nullopt;
+	}
+	/// Changes with every write: a cheap way to see that there is news.
+	uint32_t version() const { return sequence_.load(std::memory_order_acquire); }
+
+private:
+	std::atomic<uint32_t> sequence_{0};
+	uint32_t reserved_ = 0;
+	std::array<std::atomic<uint64_t>, sizeof(T) / 8> words_{};
+};
+
+/// When a camera's images are taken and when they are there: exposures at reference + k * period, usable `delay` later.
+struct CameraTiming {
+	XrTime reference = 0;    ///< mid-exposure of a recent image
+	XrDuration period = 0;   ///< 0: no camera
+	XrDuration delay = 0;    ///< from mid-exposure until the compositor can take it
+};
+
+/// Everything that decides where views are and how spaces lie. Changes rarely, always as a whole.
+struct ViewTable {
+	std::array<XrPosef, 2> eyeInHead;
+	std::array<XrPosef, 2> cameraInHead;
+	std::array<XrFovf, 2> fov;
+	float viewOffset = 1;              ///< 0 = views at the eyes, 1 = at the cameras
+	float reserved = 0;
+	XrVector3f pivotInHead{};          ///< the neck model's
+	float floorBelowLocal = 0;         ///< metres from LOCAL's origin down to the floor
+	XrPosef localInOrigin = identityPose; ///< level: heading and position only
+	std::array<float, 2> stageBounds{};///< metres, width and depth around STAGE's origin
+	uint32_t recenterCount = 0;
+};
+
+/// What changes with every camera image or refresh.
+struct TimingTable {
+	std::array<CameraTiming, 2> cameras;
+	XrDuration displayPeriod = 0;      ///< measured
+	XrTime lastDisplayTime = 0;        ///< of the middle line, of the newest image presented
+	XrDuration latchBeforeDisplay = 0; ///< the compositor takes camera images this long before the middle line's display time
+};
+
+struct ClockTable {
+	XrTime realAnchor = 0;
+	XrTime xrAnchor = 0;
+	double rate = 1;
+};
+
+/// One per service, mapped read-only by every client.
+struct SystemPage {
+	uint32_t protocol = 0;
+	uint32_t reserved = 0;
+	std::atomic<int64_t> heartbeat{0}; ///< CLOCK_MONOTONIC ns, at least every 100 ms of real time
+	Published<ClockTable> clock;
+	Published<ViewTable> views;
+	Published<TimingTable> timing;
+};
+
+enum class EventType : uint32_t { none, visibilityChanged, exitRequested, recentered, lossPending };
+
+struct Event {
+	EventType type = EventType::none;
+	uint32_t session = 0;
+	XrTime time = 0;
+	uint32_t visible = 0, focused = 0;
+	XrPosef pose = identityPose; ///< recentered: the new space's origin in the old one
+	uint32_t reserved = 0;
+};
+
+/// One per application, mapped read-only by it alone.
+struct ClientPage {
+	static constexpr uint32_t eventSlots = 64;
+	/// Events written so far; event n lies in slot n % eventSlots. A reader that falls behind by more has lost the oldest.
+	std::atomic<uint64_t> eventCount{0};
+	std::array<Published<Event>, eventSlots> events;
+	/// The oldest submission (its frame number) whose images the compositor may still read. Images last used by an earlier one are free.
+	std::atomic<uint64_t> oldestHeldFrame{0};
+};
+
+} // namespace arift::ipc
