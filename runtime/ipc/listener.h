@@ -1,0 +1,36 @@
+// The service's side of the well-known socket: the lock that says who may have it, and accepting its own user's connections.
+#pragma once
+#include "runtime/ipc/socket.h"
+#include <filesystem>
+
+namespace arift::ipc
+{
+
+/// Only one service per user: a lock file held for life. Nothing where another process holds it.
+std::optional<UniqueFd> takeServiceLock(const std::filesystem::path &path);
+
+/// Listens on a socket in a private directory. The caller holds the service lock: what lies at the path is a dead service's and is
+/// replaced.
+class Listener
+{
+public:
+	/// Throws InputError where the path is too long for a socket or cannot be bound.
+	explicit Listener(const std::filesystem::path &path);
+	~Listener();
+	Listener(const Listener &) = delete;
+
+	/// The next connection from a process of this user (others are closed and counted out), or nothing by the deadline or after stop().
+	std::optional<Socket> accept(XrTime realDeadline);
+	/// Ends accept() at once, from any thread.
+	void stop() { socket_.hangUp(); }
+
+private:
+	std::filesystem::path path_;
+	Socket socket_;
+};
+
+/// Connects to a listening service of this user. Nothing where nobody listens. Throws InputError where the path is too long or the
+/// listener belongs to somebody else.
+std::optional<Socket> connectTo(const std::filesystem::path &path);
+
+} // namespace arift::ipc

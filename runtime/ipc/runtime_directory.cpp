@@ -1,0 +1,86 @@
+#include "runtime/ipc/runtime_directory.h"
+#include "runtime/base/error.h"
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <pwd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace arift::ipc
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+fs::path environmentPath(const char *name)
+{
+	const char *value = std::getenv(name);
+	return value && *value == '/' ? fs::path(value) : fs::path(); // XDG: relative paths are to be ignored
+}
+
+fs::path home()
+{
+	if (fs::path path = environmentPath("HOME"); !path.empty()) return path;
+	const passwd *user = ::getpwuid(::getuid());
+	if (!user || !user->pw_dir) throw InputError("neither HOME nor the user database names a home directory");
+	return user->pw_dir;
+}
+
+void requirePrivate(const fs::path &path)
+{
+	struct stat status {
+	};
+	if (::lstat(path.c_str(), &status) != 0) throw InputError("{}: {}", path.string(), std::strerror(errno));
+	if (!S_ISDIR(status.st_mode)) throw InputError("{}: expected a directory, not a link or file", path.string());
+	if (status.st_uid != ::geteuid())
+		throw InputError("{}: belongs to user {}, expected user {}", path.string(), status.st_uid, ::geteuid());
+	if (status.st_mode & 077)
+		throw InputError("{}: has mode {:o}, expected 700 (chmod 700 {})", path.string(), status.st_mode & 0777, path.string());
+}
+
+bool isOwnDirectory(const fs::path &path)
+{
+	struct stat status {
+	};
+	return ::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::geteuid();
+}
+
+} // namespace
+
+fs::path runtimeDirectory()
+{
+	fs::path base = environmentPath("XDG_RUNTIME_DIR");
+	const std::string user = std::to_string(::geteuid());
+	if (base.empty() && isOwnDirectory("/run/user/" + user)) base = "/run/user/" + user;
+	const fs::path path = base.empty() ? fs::path("/tmp/arift-" + user) : base / "arift";
+	if (::mkdir(path.c_str(), 0700) != 0 && errno != EEXIST)
+		throw InputError("{}: cannot be made: {}", path.string(), std::strerror(errno));
+	requirePrivate(path);
+	return path;
+}
+
+fs::path socketPath() { return runtimeDirectory() / "service.sock"; }
+fs::path lockPath() { return runtimeDirectory() / "service.lock"; }
+
+fs::path logPath()
+{
+	fs::path base = environmentPath("XDG_STATE_HOME");
+	if (base.empty()) base = home() / ".local/state";
+	const fs::path folder = base / "arift";
+	std::error_code problem;
+	fs::create_directories(folder, problem);
+	if (problem) throw InputError("{}: cannot be made: {}", folder.string(), problem.message());
+	return folder / "service.log";
+}
+
+fs::path configDirectory()
+{
+	fs::path base = environmentPath("XDG_CONFIG_HOME");
+	if (base.empty()) base = home() / ".config";
+	return base / "arift";
+}
+
+} // namespace arift::ipc
