@@ -1,0 +1,82 @@
+#include "tests/gpu/reference/reference_panel.h"
+#include <algorithm>
+#include <cmath>
+
+namespace arift::reference
+{
+
+Window fieldOfView(int eye, double eyeRelief)
+{
+	// LibOVR 0.4: the lens' rim (radius 17.5 mm) seen by the pupil, looking ahead and turned by 30 degrees (eyeball radius 13.5 mm).
+	const double relief = std::max(eyeRelief, 0.006), decentred = -(0.064 - 0.0635) / 2;
+	const double forward = relief + 0.0135 * (1 - std::cos(M_PI / 6)), sideways = 0.0135 * std::sin(M_PI / 6) + 0.001;
+	const auto rim = [&](double radius) { return std::max(radius / relief, (radius + sideways) / forward); };
+	const double outer = rim(0.0175 + decentred), inner = rim(0.0175 - decentred), vertical = rim(0.0175);
+	// What the panel's half can show at all.
+	const Lens lens = Lens::spline(eyeRelief);
+	const double innerEdge = lens.tangents(0, 1, {640, 400}).x(), outerEdge = -lens.tangents(0, 1, {0, 400}).x();
+	const double top = lens.tangents(0, 1, {Lens::axis(0).x(), 0}).y();
+	const double out = std::min(outer, outerEdge), in = std::min(inner, innerEdge), high = std::min(vertical, top);
+	return eye == 0 ? Window{-out, in, high, -high} : Window{-in, out, high, -high};
+}
+
+Placement Situation::view(int eye, double time) const
+{
+	const Placement atEye = motion.head(time).holding(eyeInHead[size_t(eye)]);
+	return {atEye.turn, atEye.place + (camera(eye).place - atEye.place) * viewOffset};
+}
+
+std::optional<Eigen::Vector3d> Situation::passthroughPoint(int eye, double time, const Eigen::Vector2d &tangents) const
+{
+	const Placement seen = view(eye, time), other = view(1 - eye, time);
+	const Eigen::Vector3d middle = (seen.place + other.place) / 2;
+	const Eigen::Vector3d ahead = motion.head(time).turn * -Eigen::Vector3d::UnitZ();
+	const Eigen::Vector3d ray = seen.turn * Eigen::Vector3d(tangents.x(), tangents.y(), -1);
+	const double along = (passthroughDistance - (seen.place - middle).dot(ahead)) / ray.dot(ahead);
+	if (!(along > 0)) return std::nullopt;
+	return Eigen::Vector3d(seen.place + ray * along);
+}
+
+std::optional<Eigen::Vector2d> PanelReference::cameraTexel(const Situation &now, int eye, int channel, const Eigen::Vector2d &pixel) const
+{
+	const auto point = now.passthroughPoint(eye, Situation::timeAt(pixel.y()), lens_.tangents(eye, channel, pixel));
+	if (!point) return std::nullopt;
+	return cameras_[size_t(eye)].see(now.camera(eye).in(*point));
+}
+
+std::optional<Eigen::Vector2d> PanelReference::projectionTexel(const Situation &now, const ProjectionPicture &picture, bool headLocked,
+															   int eye, int channel, const Eigen::Vector2d &pixel) const
+{
+	const double time = Situation::timeAt(pixel.y());
+	const auto point = now.passthroughPoint(eye, time, lens_.tangents(eye, channel, pixel));
+	if (!point) return std::nullopt;
+	const Eigen::Vector3d q = picture.viewInFrame.in(headLocked ? now.motion.head(time).in(*point) : *point);
+	if (q.z() >= 0) return std::nullopt;
+	const Eigen::Vector2d t(q.x() / -q.z(), q.y() / -q.z());
+	if (!picture.window.holds(t)) return std::nullopt;
+	const Window &w = picture.window;
+	return Eigen::Vector2d((t.x() - w.left) / (w.right - w.left) * picture.width - 0.5,
+						   (w.up - t.y()) / (w.up - w.down) * picture.height - 0.5);
+}
+
+std::optional<Eigen::Vector2d> PanelReference::quadTexel(const Situation &now, const QuadPicture &picture, bool headLocked, int eye,
+														 int channel, const Eigen::Vector2d &pixel) const
+{
+	const double time = Situation::timeAt(pixel.y());
+	const Placement view = now.view(eye, time);
+	const Eigen::Vector2d t = lens_.tangents(eye, channel, pixel);
+	Eigen::Vector3d from = view.place, to = view.out(Eigen::Vector3d(t.x(), t.y(), -1));
+	if (headLocked) {
+		from = now.motion.head(time).in(from);
+		to = now.motion.head(time).in(to);
+	}
+	from = picture.quadInFrame.in(from);
+	to = picture.quadInFrame.in(to);
+	if (from.z() <= 0 || to.z() >= from.z()) return std::nullopt; // behind it, or looking away
+	const Eigen::Vector3d hit = from + (to - from) * (from.z() / (from.z() - to.z()));
+	const double u = hit.x() / picture.metresWide + 0.5, v = 0.5 - hit.y() / picture.metresHigh;
+	if (u < 0 || u > 1 || v < 0 || v > 1) return std::nullopt;
+	return Eigen::Vector2d(u * picture.width - 0.5, v * picture.height - 0.5);
+}
+
+} // namespace arift::reference
