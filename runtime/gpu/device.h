@@ -1,14 +1,15 @@
 // A Vulkan instance, device and queue made for the service. The only place that chooses a GPU. (vulkan.hpp stays out of this header.)
 #pragma once
-#include "runtime/gpu/image_spec.h"
 #include "runtime/base/unique_fd.h"
+#include "runtime/gpu/image_spec.h"
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
-namespace arift::gpu {
+namespace arift::gpu
+{
 
 struct DeviceIdentity {
 	std::array<uint8_t, 16> deviceUuid{}, driverUuid{};
@@ -16,7 +17,8 @@ struct DeviceIdentity {
 	std::string name;
 };
 
-class Device {
+class Device
+{
 public:
 	/// `surfaceExtensions`: instance extensions a window target needs, or empty. ARIFT_VULKAN_VALIDATION=1 turns the validation layer
 	/// (with synchronisation checks) on; its messages go to the log as errors.
@@ -28,7 +30,7 @@ public:
 	/// Messages the validation layer has sent so far.
 	uint64_t validationMessages() const;
 
-	struct Handles;                 ///< vk::raii objects: runtime/gpu/handles.h, for those that draw
+	struct Handles; ///< vk::raii objects: runtime/gpu/handles.h, for those that draw
 	Handles &handles() { return *handles_; }
 
 private:
@@ -36,7 +38,8 @@ private:
 };
 
 /// An image in exportable memory, cleared and left in its boundary layout, owned by VK_QUEUE_FAMILY_EXTERNAL.
-class SharedImage {
+class SharedImage
+{
 public:
 	SharedImage(Device &device, const ImageSpec &spec);
 	~SharedImage();

@@ -1,6 +1,7 @@
 #include "runtime/gpu/image_spec.h"
 
-namespace arift::gpu {
+namespace arift::gpu
+{
 
 bool isDepth(VkFormat format) { return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT; }
 
@@ -11,6 +12,8 @@ VkImageLayout boundaryLayout(VkFormat format)
 
 VkImageCreateInfo imageCreateInfo(const ImageSpec &spec, VkExternalMemoryImageCreateInfo &external)
 {
+	// What the service does with every image: it clears new ones and samples the ones with colour.
+	const VkImageUsageFlags ours = VK_IMAGE_USAGE_TRANSFER_DST_BIT | (isDepth(VkFormat(spec.format)) ? 0 : VK_IMAGE_USAGE_SAMPLED_BIT);
 	external = {.sType = VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_IMAGE_CREATE_INFO, .pNext = nullptr, .handleTypes = sharedHandleType};
 	return {
 		.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
@@ -23,7 +26,7 @@ VkImageCreateInfo imageCreateInfo(const ImageSpec &spec, VkExternalMemoryImageCr
 		.arrayLayers = spec.arrayLayers,
 		.samples = VkSampleCountFlagBits(spec.samples),
 		.tiling = VK_IMAGE_TILING_OPTIMAL,
-		.usage = spec.usage,
+		.usage = spec.usage | ours,
 		.sharingMode = VK_SHARING_MODE_EXCLUSIVE,
 		.queueFamilyIndexCount = 0,
 		.pQueueFamilyIndices = nullptr,

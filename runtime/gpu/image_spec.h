@@ -4,15 +4,16 @@
 #include <cstdint>
 #include <vulkan/vulkan_core.h>
 
-namespace arift::gpu {
+namespace arift::gpu
+{
 
 /// Fixed width: travels in messages.
 struct ImageSpec {
-	int32_t format = 0;        ///< VkFormat
-	uint32_t usage = 0;        ///< VkImageUsageFlags
-	uint32_t createFlags = 0;  ///< VkImageCreateFlags
+	int32_t format = 0;       ///< VkFormat
+	uint32_t usage = 0;       ///< VkImageUsageFlags the application asked for; imageCreateInfo adds what the service needs
+	uint32_t createFlags = 0; ///< VkImageCreateFlags
 	uint32_t width = 0, height = 0;
-	uint32_t arrayLayers = 1;  ///< faces included
+	uint32_t arrayLayers = 1; ///< faces included
 	uint32_t mipLevels = 1;
 	uint32_t samples = 1;
 };
@@ -22,7 +23,8 @@ VkImageCreateInfo imageCreateInfo(const ImageSpec &spec, VkExternalMemoryImageCr
 
 constexpr VkExternalMemoryHandleTypeFlagBits sharedHandleType = VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT;
 
-/// The layout in which an application hands an image over and gets it back: OpenXR 1.1 §12.19 (XR_KHR_vulkan_enable2), "Swapchain Image Layout".
+/// The layout in which an application hands an image over and gets it back: OpenXR 1.1 §12.19 (XR_KHR_vulkan_enable2), "Swapchain Image
+/// Layout".
 VkImageLayout boundaryLayout(VkFormat format);
 bool isDepth(VkFormat format);
 

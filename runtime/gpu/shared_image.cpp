@@ -1,0 +1,116 @@
+#include "runtime/gpu/device.h"
+#include "runtime/gpu/handles.h"
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace arift::gpu
+{
+
+namespace
+{
+
+constexpr auto handleType = vk::ExternalMemoryHandleTypeFlagBits::eOpaqueFd;
+
+vk::raii::Image makeImage(const Device::Handles &gpu, const ImageSpec &spec)
+{
+	VkExternalMemoryImageCreateInfo external;
+	const vk::ImageCreateInfo info(imageCreateInfo(spec, external));
+	const vk::PhysicalDeviceExternalImageFormatInfo shared{handleType};
+	const vk::PhysicalDeviceImageFormatInfo2 format{info.format, info.imageType, info.tiling, info.usage, info.flags, &shared};
+	try {
+		const auto limits = gpu.physical.getImageFormatProperties2<vk::ImageFormatProperties2, vk::ExternalImageFormatProperties>(format);
+		const auto &most = limits.get<vk::ImageFormatProperties2>().imageFormatProperties;
+		if (spec.width <= most.maxExtent.width && spec.height <= most.maxExtent.height && spec.arrayLayers <= most.maxArrayLayers &&
+			spec.mipLevels <= most.maxMipLevels && (vk::SampleCountFlagBits(spec.samples) & most.sampleCounts))
+			return {gpu.device, info};
+	} catch (const vk::FormatNotSupportedError &) {
+	}
+	throw std::runtime_error(
+		fmt::format("the device cannot share an image of format {}, {}x{}, {} layers, {} mip levels, {} samples, usage {:#x}",
+					vk::to_string(info.format), spec.width, spec.height, spec.arrayLayers, spec.mipLevels, spec.samples, spec.usage));
+}
+
+vk::raii::DeviceMemory makeMemory(const Device::Handles &gpu, const vk::raii::Image &image, uint32_t type, vk::DeviceSize size)
+{
+	const vk::MemoryDedicatedAllocateInfo dedicated{*image};
+	const vk::ExportMemoryAllocateInfo exported{handleType, &dedicated};
+	return {gpu.device, {size, type, &exported}};
+}
+
+uint32_t deviceLocalType(const Device::Handles &gpu, uint32_t allowed)
+{
+	const std::array<vk::MemoryPropertyFlags, 2> wishes{vk::MemoryPropertyFlagBits::eDeviceLocal, vk::MemoryPropertyFlags{}};
+	return gpu.memoryType(allowed, wishes);
+}
+
+/// Fills with transparent black (depth: the far plane) and hands the image over.
+void clearAndRelease(const vk::raii::CommandBuffer &commands, vk::Image image, VkFormat format, uint32_t queueFamily)
+{
+	using Access = vk::AccessFlagBits;
+	using Stage = vk::PipelineStageFlagBits;
+	using Layout = vk::ImageLayout;
+	const vk::ImageSubresourceRange all{aspectOf(format), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+	const vk::ImageMemoryBarrier before{{},
+										Access::eTransferWrite,
+										Layout::eUndefined,
+										Layout::eTransferDstOptimal,
+										VK_QUEUE_FAMILY_IGNORED,
+										VK_QUEUE_FAMILY_IGNORED,
+										image,
+										all};
+	commands.pipelineBarrier(Stage::eTopOfPipe, Stage::eTransfer, {}, {}, {}, before);
+	if (isDepth(format))
+		commands.clearDepthStencilImage(image, Layout::eTransferDstOptimal, vk::ClearDepthStencilValue{1, 0}, all);
+	else
+		commands.clearColorImage(image, Layout::eTransferDstOptimal, vk::ClearColorValue{}, all);
+	const vk::ImageMemoryBarrier after{Access::eTransferWrite,
+									   {},
+									   Layout::eTransferDstOptimal,
+									   Layout(boundaryLayout(format)),
+									   queueFamily,
+									   VK_QUEUE_FAMILY_EXTERNAL,
+									   image,
+									   all};
+	commands.pipelineBarrier(Stage::eTransfer, Stage::eBottomOfPipe, {}, {}, {}, after);
+}
+
+} // namespace
+
+struct SharedImage::Implementation {
+	Implementation(Device::Handles &handles, const ImageSpec &wanted)
+		: gpu(handles),
+		  spec(wanted),
+		  image(makeImage(gpu, spec)),
+		  size(image.getMemoryRequirements().size),
+		  type(deviceLocalType(gpu, image.getMemoryRequirements().memoryTypeBits)),
+		  memory(makeMemory(gpu, image, type, size))
+	{
+		image.bindMemory(*memory, 0);
+		gpu.runOnce([&](const auto &commands) { clearAndRelease(commands, *image, VkFormat(spec.format), gpu.queueFamily); });
+	}
+
+	Device::Handles &gpu;
+	ImageSpec spec;
+	vk::raii::Image image;
+	vk::DeviceSize size;
+	uint32_t type;
+	vk::raii::DeviceMemory memory;
+};
+
+SharedImage::SharedImage(Device &device, const ImageSpec &spec) : implementation_(std::make_unique<Implementation>(device.handles(), spec))
+{
+}
+SharedImage::~SharedImage() = default;
+SharedImage::SharedImage(SharedImage &&) noexcept = default;
+
+VkImage SharedImage::image() const { return *implementation_->image; }
+const ImageSpec &SharedImage::spec() const { return implementation_->spec; }
+uint64_t SharedImage::memorySize() const { return implementation_->size; }
+uint32_t SharedImage::memoryTypeIndex() const { return implementation_->type; }
+
+UniqueFd SharedImage::exportMemory() const
+{
+	return UniqueFd(implementation_->gpu.device.getMemoryFdKHR({*implementation_->memory, handleType}));
+}
+
+} // namespace arift::gpu
