@@ -5,7 +5,7 @@
 namespace arift {
 
 /// The head (the VIEW frame: midway between the eyes) as the orientation filter sees it. Frame "origin": y up against gravity, never moved;
-/// recentring moves spaces, not samples. Position follows from the neck model (see neck_model.h) and is not stored.
+/// recentring moves spaces, not samples. Position follows from the neck model and is not stored.
 struct MotionSample {
 	XrTime time = 0;
 	XrQuaternionf headInOrigin = identityOrientation;
@@ -13,7 +13,7 @@ struct MotionSample {
 	XrVector3f angularAcceleration{0, 0, 0}; ///< rad/s^2, in head axes
 };
 
-/// The head turns about a pivot fixed in the origin frame, OpenXR axes, metres. facts: ANSUR-88 neck-to-eye 0.0805 forward, 0.075 up.
+/// The head turns about a pivot fixed in the origin frame, OpenXR axes, metres. ANSUR-88 neck to eye, as LibOVR 0.4 has it: 0.0805 forward, 0.075 up.
 struct NeckModel {
 	XrVector3f pivotInHead{0, -0.075f, 0.0805f};
 	/// The pose of the head when it has turned to `headInOrigin`; at identity the head is at the origin.
