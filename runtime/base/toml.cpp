@@ -97,6 +97,19 @@ std::vector<double> TomlTable::numbers(const char *key, size_t size)
 	return values;
 }
 
+std::vector<std::string> TomlTable::texts(const char *key)
+{
+	constexpr const char *expected = "an array of texts in quotes";
+	const toml::array *array = node(key, expected).as_array();
+	if (!array) complain(key, expected);
+	std::vector<std::string> values;
+	for (const toml::node &element : *array) {
+		if (!element.is_string()) complain(key, expected);
+		values.push_back(*element.value<std::string>());
+	}
+	return values;
+}
+
 TomlTable TomlTable::table(const char *key, bool required)
 {
 	asked_.insert(key);

@@ -27,6 +27,8 @@ public:
 	size_t choice(const char *key, std::initializer_list<const char *> choices, size_t otherwise);
 	/// An array of numbers; `size` 0 means any length.
 	std::vector<double> numbers(const char *key, size_t size);
+	/// An array of texts.
+	std::vector<std::string> texts(const char *key);
 	/// A sub-table; an empty one where the key is absent and `required` is not set.
 	TomlTable table(const char *key, bool required = false);
 	std::vector<TomlTable> tables(const char *key);
