@@ -15,6 +15,10 @@ struct CameraView {
 	XrPosef cameraInOrigin;      ///< at mid-exposure
 	uint32_t lens = 0;           ///< index into Rig::cameras: 0 left, 1 right (the other eye's when one camera is lost)
 	float weight = 1;            ///< 0..1: fades a replacement in
+	// As in the camera's CameraInfo.
+	double blackLevel = 0;       ///< raw value of darkness, 0..1 of full scale
+	std::array<float, 3> whiteBalance{1, 1, 1};
+	bool linear = true;          ///< else sRGB encoded
 };
 
 /// Where an eye's view stands when a panel line is seen.
