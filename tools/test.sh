@@ -1,0 +1,179 @@
+#!/usr/bin/env bash
+# Installs, builds and runs every test. Needs neither GPU nor display; goes on after a failure and says at the end what failed.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+. tools/packages.sh
+
+usage() {
+	cat <<'TEXT'
+usage: tools/test.sh [--all] [--long] [--only STAGE]...
+  --all         clang-tidy reads every file, not only those that the newest commit and the working tree change
+  --long        the long figures as well (tests labelled "long")
+  --only STAGE  run this stage alone (may be given again): packages format release asan fuzz tsan tidy bench
+TEXT
+}
+
+all_stages=(packages format release asan fuzz tsan tidy bench)
+stages=()
+tidy_all=false
+long=false
+while [ $# -gt 0 ]; do
+	case "$1" in
+	--all) tidy_all=true ;;
+	--long) long=true ;;
+	--only)
+		case " ${all_stages[*]} " in
+		*" ${2:-} "*) stages+=("$2") ;;
+		*)
+			echo "tools/test.sh: --only expects one of: ${all_stages[*]}; found \"${2:-}\"" >&2
+			exit 2
+			;;
+		esac
+		shift
+		;;
+	--help)
+		usage
+		exit 0
+		;;
+	*)
+		echo "tools/test.sh: unknown option \"$1\"; --help lists them" >&2
+		exit 2
+		;;
+	esac
+	shift
+done
+[ ${#stages[@]} -gt 0 ] || stages=("${all_stages[@]}")
+
+jobs=$(nproc)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export NINJA_STATUS='[%f/%t] ' CTEST_OUTPUT_ON_FAILURE=1 CCACHE_NOHASHDIR=1
+unset ARIFT_CONFIG ARIFT_SERVICE XR_RUNTIME_JSON XR_ENABLE_API_LAYERS DISPLAY WAYLAND_DISPLAY
+label_filter=(-LE long)
+if $long; then
+	label_filter=()
+	export ARIFT_LONG=1
+fi
+suppressions=$PWD/tests/suppressions
+sanitizers=(
+	ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1
+	UBSAN_OPTIONS=print_stacktrace=1
+	LSAN_OPTIONS="suppressions=$suppressions/lsan.supp:print_suppressions=0"
+	TSAN_OPTIONS="suppressions=$suppressions/tsan.supp:halt_on_error=1:second_deadlock_stack=1"
+)
+
+# build PRESET [TARGET]...
+build() {
+	local preset=$1
+	shift
+	cmake --preset "$preset" >"$work/configure" 2>&1 || { cat "$work/configure"; return 1; }
+	ninja -C "build/$preset" -j "$jobs" "$@"
+}
+# run_ctest PRESET NAME ARGUMENTS...: keeps CTest's closing lines for the summary
+run_ctest() {
+	local preset=$1 name=$2 result
+	shift 2
+	ctest --test-dir "build/$preset" -j "$jobs" --no-tests=error "$@" 2>&1 | tee "$work/ctest.$name"
+	result=${PIPESTATUS[0]}
+	grep -E '^[0-9]+% tests passed|^Total Test time' "$work/ctest.$name" | tail -2 >"$work/summary.$name"
+	return "$result"
+}
+
+sources() { git ls-files --cached --others --exclude-standard -- '*.h' '*.cpp'; }
+
+stage_packages() { install_packages test; }
+
+stage_format() {
+	sources | xargs clang-format-14 --dry-run -Werror && echo "format: $(sources | wc -l) files as .clang-format has them"
+}
+
+stage_release() {
+	build release && run_ctest release release "${label_filter[@]}"
+}
+
+stage_asan() {
+	build asan && (export "${sanitizers[@]}" && run_ctest asan asan -LE 'long|layering')
+}
+
+# Each fuzzer runs its committed corpus as a test of the asan build already; here it also looks for new inputs.
+stage_fuzz() {
+	local fuzzer name result=0
+	build asan fuzzers || return 1
+	for fuzzer in build/asan/bin/fuzz_*; do
+		name=$(basename "$fuzzer")
+		mkdir -p "$work/$name"
+		echo "fuzz: $name, ten seconds"
+		if (cd "$work" && export "${sanitizers[@]}" &&
+			"$OLDPWD/$fuzzer" -max_total_time=10 -timeout=5 -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$work/$name." \
+				"$work/$name" "$OLDPWD/tests/fuzz/corpus/${name#fuzz_}") >"$work/$name.log" 2>&1; then
+			grep -E 'number_of_executed_units' "$work/$name.log"
+		else
+			tail -40 "$work/$name.log"
+			echo "fuzz: $name found an input that breaks it:"
+			for found in "$work/$name".*-*; do [ -f "$found" ] && { echo "$found"; base64 "$found"; }; done
+			result=1
+		fi
+	done
+	return $result
+}
+
+stage_tsan() {
+	build tsan thread_tests && (export "${sanitizers[@]}" && run_ctest tsan tsan -L threads -LE 'long|gpu')
+}
+
+# Two at a time, at most eight minutes: what is left then is named and belongs to a run with --all.
+stage_tidy() {
+	local base files
+	cmake --preset asan >/dev/null 2>&1 || return 1
+	if $tidy_all; then
+		files=$(sources)
+	else
+		base=$(git rev-parse -q --verify HEAD~1 || git rev-parse HEAD)
+		files=$( (git diff --name-only --diff-filter=d "$base" -- '*.h' '*.cpp'; git ls-files --others --exclude-standard -- '*.h' '*.cpp') | sort -u)
+	fi
+	files=$(grep '\.cpp$' <<<"$files" || true)
+	[ -n "$files" ] || { echo "tidy: no changed .cpp file"; return 0; }
+	local limit=480
+	$tidy_all && limit=86400
+	echo "$files" >"$work/tidy.files"
+	deadline=$(($(date +%s) + limit)) xargs -P "$jobs" -n 1 bash -c '
+		if [ "$(date +%s)" -gt "$deadline" ]; then echo "tidy: not read for want of time: $0"; else
+			clang-tidy-14 --quiet -p build/asan "$0" 2>/dev/null
+		fi' <"$work/tidy.files" || return 1
+	echo "tidy: $(wc -l <"$work/tidy.files") files read"
+}
+
+stage_bench() {
+	local bench
+	for bench in build/release/bin/bench_*; do
+		[ -x "$bench" ] || continue
+		"$bench" --benchmark_min_time=0.1 --benchmark_color=false 2>"$work/bench.err" || { cat "$work/bench.err"; return 1; }
+	done
+}
+
+failed=()
+lines=()
+start=$(date +%s)
+for stage in "${stages[@]}"; do
+	echo
+	echo "==== $stage"
+	began=$(date +%s)
+	if "stage_$stage"; then verdict=passed; else
+		verdict=FAILED
+		failed+=("$stage")
+	fi
+	lines+=("$(printf '%-9s %s  %4d s' "$stage" "$verdict" $(($(date +%s) - began)))")
+done
+
+echo
+echo "==== summary after $((($(date +%s) - start) / 60)) min"
+for line in "${lines[@]}"; do
+	echo "$line"
+	name=${line%% *}
+	[ -f "$work/summary.$name" ] && sed 's/^/          /' "$work/summary.$name"
+done
+if [ ${#failed[@]} -gt 0 ]; then
+	echo "FAILED: ${failed[*]}"
+	exit 1
+fi
+echo "all passed"
