@@ -1,0 +1,63 @@
+// When to wake, and when what is drawn then will be seen. Pure arithmetic: past display times and costs in, times out; no clock, lock or
+// GPU. A display time is the instant at which the panel's middle line is seen. All times and costs are those of the one Clock.
+#pragma once
+#include "runtime/base/xr.h"
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace arift
+{
+
+class Pacer
+{
+public:
+	struct Settings {
+		XrDuration period = 16'691'704; ///< nominal: 59.91 Hz; the real one is measured
+		XrDuration vblankToDisplay =
+			25'072'135;                   ///< from the vertical blank that takes an image to its display time (PanelTiming::lineDelay)
+		XrDuration margin = 1'000'000;    ///< left between the expected end of composing and the vertical blank
+		XrDuration firstCost = 5'000'000; ///< expected of composing until it is known
+	};
+	/// `anyDisplayTime` fixes the phase until a display time is measured.
+	Pacer(Settings settings, XrTime anyDisplayTime);
+
+	struct Refresh {
+		XrTime latch = 0;   ///< composing begins: the newest of everything is taken
+		XrTime vblank = 0;  ///< the image must be there
+		XrTime display = 0; ///< its middle line is seen
+	};
+	/// The first refresh for which composing can still begin in time when it is `now`. On a machine that composes for longer than a period
+	/// whole refreshes lie between two answers: images come late by the grid, never between its lines.
+	Refresh next(XrTime now) const;
+	/// The refresh that follows `refresh` when the compositor has done its work for it: what an application woken then draws for.
+	Refresh following(const Refresh &refresh) const { return next(refresh.latch + cost() + 1); }
+
+	/// What composing an image cost, from the latch until it was finished.
+	void composed(XrDuration cost);
+	/// An image was seen at `display`, as measured. Follows the display's period and phase, and counts the refreshes without a new image.
+	void displayed(XrTime display);
+
+	/// Measured; the nominal one until it is.
+	XrDuration period() const { return XrDuration(period_ + 0.5); }
+	/// What composing is expected to cost: nine of ten recent images took no longer; never more than four periods.
+	XrDuration cost() const { return cost_; }
+	uint64_t missed() const { return missed_; }
+
+private:
+	static constexpr size_t keptCosts = 64;
+
+	Settings settings_;
+	double period_; ///< ns
+	double phase_;  ///< ns after origin_: a display time of the grid
+	XrTime origin_; ///< keeps the doubles small
+	std::optional<XrTime> lastDisplay_;
+	uint32_t astray_ = 0; ///< measured times in a row that the grid does not explain
+	std::array<XrDuration, keptCosts> costs_{};
+	size_t costCount_ = 0;
+	XrDuration cost_;
+	uint64_t missed_ = 0;
+};
+
+} // namespace arift

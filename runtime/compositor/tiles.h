@@ -1,0 +1,71 @@
+// Which part of an eye's image needs which pipeline: a software renderer pays for every pixel that a layer is asked about in vain, and
+// branching in the shader does not help it. Pure functions.
+#pragma once
+#include "runtime/base/xr.h"
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+namespace arift
+{
+
+/// Pixels, x1 and y1 excluded.
+struct PixelRect {
+	int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// An eye's image is drawn in bands of lines; within one, matrices change linearly. Two bands keep the chord within 0.02 px of the arc at
+/// 200 °/s.
+constexpr uint32_t bandCount = 2;
+/// A matrix at the top of every band and at the bottom of the last.
+using MatrixByBand = std::array<glm::dmat3, bandCount + 1>;
+
+/// One eye's part of an image, cut into tiles.
+class TileGrid
+{
+public:
+	static constexpr int tileWidth = 32, tileHeight = 20;
+	/// `tangents` of a pixel position; nothing is drawn further than `radius` pixels from `centre`.
+	TileGrid(PixelRect area, glm::dvec2 centre, double radius, const std::function<glm::dvec2(glm::dvec2)> &tangents);
+
+	int columns() const { return columns_; }
+	int rows() const { return rows_; }
+	uint32_t bandOf(int row) const { return row < rows_ / int(bandCount) ? 0 : 1; }
+	/// Line at which a band begins; of `bandCount`: where the last ends.
+	int bandBegin(uint32_t band) const;
+	/// The part of a tile that may be seen; empty (x0 >= x1) outside the circle.
+	PixelRect tile(int column, int row) const;
+	/// Tangents at a corner, column 0..columns(), row 0..rows().
+	glm::dvec2 corner(int column, int row) const { return corners_[size_t(row) * size_t(columns_ + 1) + size_t(column)]; }
+
+private:
+	PixelRect area_;
+	int columns_, rows_;
+	std::vector<glm::dvec2> corners_;
+	std::vector<std::array<int, 2>> visible_; ///< first and last column of pixels, by row of tiles
+};
+
+enum class Cover : uint8_t { none, partly, fully };
+/// By tile, row by row: where a layer with these matrices (reprojection.h) lies. Never says `none` or `fully` in error, for any colour.
+std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix);
+
+enum class Blend : uint32_t { replace, over, add };
+struct TileDraw {
+	Blend blend = Blend::replace;
+	bool backdrop = false; ///< camera, or what stands for it
+	int layer = -1;
+	uint32_t band = 0;
+	std::vector<PixelRect> rects;
+};
+struct PlannedLayer {
+	std::vector<Cover> cover; ///< empty: this eye does not see it
+	bool opaque = false;
+};
+/// The draws of one eye in their order.
+std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const PlannedLayer> layers);
+
+} // namespace arift
