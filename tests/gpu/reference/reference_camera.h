@@ -1,4 +1,4 @@
-// An OCamCalib camera (Scaramuzza, Martinelli & Siegwart 2006), written a second time for tests. The direct polynomial is what counts.
+// An OCamCalib camera (Scaramuzza, Martinelli & Siegwart 2006), written a second time for tests.
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -11,7 +11,8 @@ namespace arift::reference
 
 struct Camera {
 	int width = 0, height = 0;
-	std::vector<double> direct; ///< z(rho), lowest order first
+	std::vector<double> direct;  ///< z(rho), lowest order first: the mapping where it is given
+	std::vector<double> inverse; ///< else rho(theta), theta = atan(z / n)
 	double centreRow = 0, centreColumn = 0;
 	double c = 1, d = 0, e = 0;
 
@@ -21,8 +22,9 @@ struct Camera {
 	Eigen::Vector3d look(const Eigen::Vector2d &texel) const;
 
 private:
-	double depth(double rho) const;
-	double slope(double rho) const;
+	/// Distance from the image centre at which a ray at `angle` radians off the axis is seen, before the affine part, and its inverse.
+	std::optional<double> radius(double angle) const;
+	double angle(double radius) const;
 };
 
 /// What a shipped Rig file says of its cameras and lens, read by this library's own few lines.
@@ -31,6 +33,7 @@ struct RigNumbers {
 	double eyeRelief = 0.010;
 	bool spline = true;
 };
+/// Throws toml++'s error or std::runtime_error.
 RigNumbers readRigNumbers(const std::filesystem::path &file);
 
 } // namespace arift::reference

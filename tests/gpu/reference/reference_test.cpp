@@ -73,10 +73,19 @@ TEST(ReferenceLens, FieldOfViewIsTheSdks)
 }
 
 // The right camera of the original ARift: its inverse polynomial is the published one, the direct one was fitted to it.
-TEST(ReferenceCamera, DirectPolynomialMeetsPublishedProjections)
+TEST(ReferenceCamera, BothPolynomialsMeetPublishedProjections)
 {
-	const Camera camera{
-		752, 480, {-420.365226, 0, 8.10936128e-4, -4.21029727e-8, 9.21330502e-11}, 236.646089, 394.135741, 1.000052, 0.000060, -0.000032};
+	Camera direct;
+	direct.width = 752;
+	direct.height = 480;
+	direct.centreRow = 236.646089;
+	direct.centreColumn = 394.135741;
+	direct.c = 1.000052;
+	direct.d = 0.000060;
+	direct.e = -0.000032;
+	Camera inverse = direct;
+	direct.direct = {-420.365226, 0, 8.10936128e-4, -4.21029727e-8, 9.21330502e-11};
+	inverse.inverse = {712.870100, 580.959756, 188.838455, 105.465531, 27.232993, 2.433748};
 	struct {
 		Vector3d cv;
 		double column, row;
@@ -85,15 +94,16 @@ TEST(ReferenceCamera, DirectPolynomialMeetsPublishedProjections)
 		{{-0.5, 0.25, 1}, 202.4578, 332.4770}, {{0.5, -0.25, 1}, 585.8137, 140.8152}, {{1, 0.3, 1}, 720.6696, 334.6319},
 		{{-1, -0.3, 1}, 67.6019, 138.6603},
 	};
-	for (const auto &vector : vectors) {
-		const Vector3d direction(vector.cv.x(), -vector.cv.y(), -vector.cv.z());
-		const auto texel = camera.see(direction);
-		ASSERT_TRUE(texel);
-		EXPECT_NEAR(texel->x(), vector.column, 0.03);
-		EXPECT_NEAR(texel->y(), vector.row, 0.03);
-		EXPECT_LT((camera.look(*texel) - direction.normalized()).norm(), 1e-9);
-	}
-	EXPECT_FALSE(camera.see({0, 0, 1}));
+	for (const auto &[camera, tolerance] : {std::pair{direct, 0.03}, {inverse, 0.001}})
+		for (const auto &vector : vectors) {
+			const Vector3d direction(vector.cv.x(), -vector.cv.y(), -vector.cv.z());
+			const auto texel = camera.see(direction);
+			ASSERT_TRUE(texel);
+			EXPECT_NEAR(texel->x(), vector.column, tolerance);
+			EXPECT_NEAR(texel->y(), vector.row, tolerance);
+			EXPECT_LT((camera.look(*texel) - direction.normalized()).norm(), 1e-5);
+			EXPECT_FALSE(camera.see({0, 0, 1}));
+		}
 }
 
 // A point on the passthrough plane is where a pinhole of the same place would put it, whoever looks.

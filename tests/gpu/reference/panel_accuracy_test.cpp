@@ -1,0 +1,318 @@
+// The panel image against the second account of it, in panel pixels: camera images, projection layers and quads.
+#include "runtime/optics/rig.h"
+#include "tests/gpu/reference/coordinate_pictures.h"
+#include "tests/gpu/reference/error_figures.h"
+#include <cmath>
+#include <gtest/gtest.h>
+
+using namespace arift;
+using namespace arift::reference;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace
+{
+
+constexpr double degree = M_PI / 180;
+constexpr uint64_t firstKey = 100;
+
+XrPosef toPose(const Placement &p)
+{
+	return {{float(p.turn.x()), float(p.turn.y()), float(p.turn.z()), float(p.turn.w())},
+			{float(p.place.x()), float(p.place.y()), float(p.place.z())}};
+}
+Placement toPlacement(const XrPosef &p)
+{
+	return {Eigen::Quaterniond(p.orientation.w, p.orientation.x, p.orientation.y, p.orientation.z).normalized(),
+			{p.position.x, p.position.y, p.position.z}};
+}
+XrFovf toFov(const Window &w)
+{
+	return {float(std::atan(w.left)), float(std::atan(w.right)), float(std::atan(w.up)), float(std::atan(w.down))};
+}
+Placement placed(const Vector3d &axis, double angle, const Vector3d &place)
+{
+	return {Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized())), place};
+}
+
+struct LensChoice {
+	const char *name;
+	bool spline;
+};
+
+/// Renderer and reference of one lens: built once for all its cases.
+class Bench
+{
+public:
+	explicit Bench(bool spline)
+		: rig_(makeRig(spline)),
+		  numbers_(readRigNumbers(rigFile())),
+		  reference_(spline ? Lens::spline(numbers_.eyeRelief) : Lens::polynomial(), numbers_.cameras),
+		  renderer_(device_, rig_, VK_FORMAT_R16G16B16A16_UNORM)
+	{
+		for (int eye = 0; eye < 2; ++eye) windows_[size_t(eye)] = fieldOfView(eye, numbers_.eyeRelief);
+		const FrameAllocator allocate = renderer_.frameAllocator();
+		for (size_t eye = 0; eye < 2; ++eye)
+			for (const Content content : contents)
+				frames_[eye][size_t(content)] =
+					coordinateFrame(allocate, content, uint32_t(numbers_.cameras[eye].width), uint32_t(numbers_.cameras[eye].height));
+	}
+
+	const PanelReference &reference() const { return reference_; }
+	const RigNumbers &numbers() const { return numbers_; }
+	const Window &window(int eye) const { return windows_[size_t(eye)]; }
+	PanelRenderer &renderer() { return renderer_; }
+	gpu::Device &device() { return device_; }
+
+	Situation situation(double degreesPerSecond, double viewOffset, double distance) const
+	{
+		Situation now;
+		now.motion.start = Eigen::AngleAxisd(20 * degree, Vector3d::UnitY()) * Eigen::AngleAxisd(-8 * degree, Vector3d::UnitX());
+		now.motion.rate = Vector3d(0.25, 1, 0.1).normalized() * (degreesPerSecond * degree);
+		now.motion.pivotInHead = Vector3d(rig_.pivotInHead.x, rig_.pivotInHead.y, rig_.pivotInHead.z);
+		for (size_t eye = 0; eye < 2; ++eye) {
+			now.eyeInHead[eye] = toPlacement(rig_.eyeInHead[eye]);
+			now.cameraInHead[eye] = toPlacement(rig_.cameras.at(eye).cameraInHead);
+		}
+		now.exposure = {-0.040, -0.043};
+		now.viewOffset = viewOffset;
+		now.passthroughDistance = distance;
+		return now;
+	}
+
+	/// Poses of the first and the last line; no picture yet.
+	PanelInputs inputs(const Situation &now) const
+	{
+		PanelInputs inputs;
+		inputs.displayTime = second;
+		inputs.passthroughDistance = now.passthroughDistance;
+		for (int eye = 0; eye < 2; ++eye)
+			for (const double y : {0.5, 799.5}) {
+				const double time = Situation::timeAt(y);
+				(y < 400 ? inputs.top : inputs.bottom)[size_t(eye)] = {toPose(now.view(eye, time)), toPose(now.motion.head(time))};
+			}
+		return inputs;
+	}
+
+	PanelReadings renderCameras(const Situation &now)
+	{
+		return render(uint32_t(numbers_.cameras[0].width), uint32_t(numbers_.cameras[0].height), [&](Content content) {
+			PanelInputs all = inputs(now);
+			for (int eye = 0; eye < 2; ++eye)
+				all.cameras[size_t(eye)] = {
+					.frame = frames_[size_t(eye)][size_t(content)], .cameraInOrigin = toPose(now.camera(eye)), .lens = uint32_t(eye)};
+			return all;
+		});
+	}
+	template <typename MakeInputs> PanelReadings render(uint32_t width, uint32_t height, MakeInputs make)
+	{
+		std::array<ReadbackImage, 3> images;
+		for (const Content content : contents) {
+			renderer_.render(make(content));
+			images[size_t(content)] = renderer_.readPanel();
+		}
+		return {std::move(images), width, height};
+	}
+
+	/// Compares on a grid; `margin` in texels keeps away from the picture's borders, where it fades.
+	ErrorFigures compare(const PanelReadings &readings, const Mapping &mapping, int width, int height, double margin) const
+	{
+		ErrorFigures figures;
+		for (uint32_t y = 1; y < 800; y += 3)
+			for (uint32_t x = 1; x < 1280; x += 3)
+				for (int channel = 0; channel < 3; ++channel) {
+					const Vector2d pixel(x + 0.5, y + 0.5);
+					const int eye = x < 640 ? 0 : 1;
+					if (!window(eye).holds(reference_.lens().tangents(eye, channel, pixel))) continue;
+					const auto wanted = mapping(eye, channel, pixel);
+					if (!wanted || wanted->x() < margin || wanted->y() < margin || wanted->x() > width - 1 - margin ||
+						wanted->y() > height - 1 - margin)
+						continue;
+					const PanelReadings::Reading shown = readings.at(x, y, channel);
+					++figures.expected;
+					if (shown.weight < 0.9995) {
+						++figures.faded;
+						continue;
+					}
+					if (const auto error = panelError(mapping, eye, channel, pixel, *wanted, {shown.column, shown.row}))
+						figures.errors.push_back(*error);
+				}
+		return figures;
+	}
+
+private:
+	static std::string rigFile() { return ARIFT_SOURCE_DIR "/calib/rigs/arift.toml"; }
+	static Rig makeRig(bool spline)
+	{
+		Rig rig = readRig(rigFile());
+		if (!spline) rig.lens = LensModel(PolynomialLens{});
+		return rig;
+	}
+
+	Rig rig_;
+	RigNumbers numbers_;
+	PanelReference reference_;
+	std::array<Window, 2> windows_{};
+	gpu::Device device_;
+	PanelRenderer renderer_;
+	std::array<std::array<CameraFrame, 3>, 2> frames_;
+};
+
+class PanelAccuracy : public testing::TestWithParam<LensChoice>
+{
+protected:
+	static Bench &bench()
+	{
+		static std::array<std::unique_ptr<Bench>, 2> benches;
+		auto &one = benches[GetParam().spline];
+		if (!one) one = std::make_unique<Bench>(GetParam().spline);
+		return *one;
+	}
+	static void judge(const std::string &what, const ErrorFigures &figures, double mostFaded)
+	{
+		std::printf("[ FIGURE   ] %-10s %-52s %s\n", GetParam().name, what.c_str(), figures.text().c_str());
+		ASSERT_GT(figures.errors.size(), 2000u) << what;
+		EXPECT_GE(figures.share(0.25), 0.995) << what;
+		EXPECT_LE(figures.largest(), 0.5) << what;
+		EXPECT_LE(double(figures.faded), mostFaded * double(figures.expected)) << what;
+	}
+};
+
+std::string describe(const char *what, double rate, double offset, double distance)
+{
+	char text[100];
+	std::snprintf(text, sizeof text, "%s, %3.0f deg/s, offset %.1f, distance %.1f m", what, rate, offset, distance);
+	return text;
+}
+
+TEST_P(PanelAccuracy, CameraImage)
+{
+	const int width = bench().numbers().cameras[0].width, height = bench().numbers().cameras[0].height;
+	for (const double rate : {0.0, 200.0})
+		for (const double offset : {0.0, 0.5, 1.0})
+			for (const double distance : {0.4, 2.0, 5.0}) {
+				if (offset == 0.5 && distance != 2.0) continue;
+				const Situation now = bench().situation(rate, offset, distance);
+				const PanelReadings readings = bench().renderCameras(now);
+				const Mapping mapping = [&](int eye, int channel, const Vector2d &pixel) {
+					return bench().reference().cameraTexel(now, eye, channel, pixel);
+				};
+				judge(describe("camera", rate, offset, distance), bench().compare(readings, mapping, width, height, 48), 0.05);
+			}
+}
+
+/// Least-squares slope of camera angle over display angle within five degrees of the eye's axis.
+double angularGain(const Bench &bench, const PanelReadings &readings, const Situation &now, int eye, int axis)
+{
+	double xx = 0, xy = 0, x = 0, y = 0, n = 0;
+	for (uint32_t row = 0; row < 800; ++row)
+		for (uint32_t column = uint32_t(eye) * 640; column < 640 + uint32_t(eye) * 640; ++column) {
+			const Vector2d t = bench.reference().lens().tangents(eye, 1, {column + 0.5, row + 0.5});
+			if (t.norm() > std::tan(5 * degree)) continue;
+			const PanelReadings::Reading shown = readings.at(column, row, 1);
+			const Vector3d direction =
+				now.cameraInHead[size_t(eye)].turn * bench.numbers().cameras[size_t(eye)].look({shown.column, shown.row});
+			const double display = std::atan(t[axis]), camera = std::atan2(direction[axis], -direction.z());
+			xx += display * display, xy += display * camera, x += display, y += camera, n += 1;
+		}
+	return (xy - x * y / n) / (xx - x * x / n);
+}
+
+TEST_P(PanelAccuracy, AngularGainIsOne)
+{
+	const Situation now = bench().situation(0, 1, 2);
+	const PanelReadings readings = bench().renderCameras(now);
+	for (int eye = 0; eye < 2; ++eye) {
+		const double horizontal = angularGain(bench(), readings, now, eye, 0), vertical = angularGain(bench(), readings, now, eye, 1);
+		std::printf("[ FIGURE   ] %-10s angular gain of the camera image, %s eye: horizontal %.5f, vertical %.5f\n", GetParam().name,
+					eye == 0 ? "left" : "right", horizontal, vertical);
+		EXPECT_NEAR(horizontal, 1, 0.005);
+		EXPECT_NEAR(vertical, 1, 0.005);
+	}
+}
+
+/// The same picture for both eyes in all three contents, known to the renderer as long as this lives.
+class Textures
+{
+public:
+	Textures(Bench &bench, uint32_t width, uint32_t height) : bench_(bench)
+	{
+		for (const Content content : contents) {
+			textures_[size_t(content)] = std::make_unique<CoordinateTexture>(bench.device(), content, width, height);
+			const gpu::SharedImage &shared = textures_[size_t(content)]->shared();
+			bench.renderer().addImage(firstKey + uint64_t(content), shared.image(), shared.spec());
+		}
+		rectangle_ = {{0, 0}, {int32_t(width), int32_t(height)}};
+	}
+	~Textures()
+	{
+		for (const Content content : contents) bench_.renderer().removeImage(firstKey + uint64_t(content));
+	}
+	LayerTexture texture(Content content) const { return {firstKey + uint64_t(content), 0, rectangle_}; }
+
+private:
+	Bench &bench_;
+	std::array<std::unique_ptr<CoordinateTexture>, 3> textures_;
+	XrRect2Di rectangle_;
+};
+
+TEST_P(PanelAccuracy, ProjectionLayer)
+{
+	constexpr int width = 1122, height = 1553;
+	Textures textures(bench(), width, height);
+	for (const bool headLocked : {false, true})
+		for (const double rate : {0.0, 200.0})
+			for (const double offset : {0.0, 1.0}) {
+				const Situation now = bench().situation(rate, offset, 2);
+				// In the world: drawn for a display time one refresh too early, as by an application that has missed one.
+				std::array<ProjectionPicture, 2> pictures;
+				for (int eye = 0; eye < 2; ++eye)
+					pictures[size_t(eye)] = {headLocked ? now.eyeInHead[size_t(eye)] : now.view(eye, -0.0167), bench().window(eye), width,
+											 height};
+				const PanelReadings readings = bench().render(width, height, [&](Content content) {
+					PanelInputs all = bench().inputs(now);
+					PanelLayer &layer = all.layers.emplace_back();
+					layer.headLocked = headLocked;
+					for (size_t eye = 0; eye < 2; ++eye)
+						layer.projection[eye] = {toPose(pictures[eye].viewInFrame), toFov(pictures[eye].window), textures.texture(content)};
+					return all;
+				});
+				const Mapping mapping = [&](int eye, int channel, const Vector2d &pixel) {
+					return bench().reference().projectionTexel(now, pictures[size_t(eye)], headLocked, eye, channel, pixel);
+				};
+				judge(describe(headLocked ? "projection, head" : "projection, world", rate, offset, 2),
+					  bench().compare(readings, mapping, width, height, 2), 0.05);
+			}
+}
+
+TEST_P(PanelAccuracy, ObliqueQuad)
+{
+	constexpr int width = 640, height = 512;
+	Textures textures(bench(), width, height);
+	for (const bool headLocked : {false, true})
+		for (const double rate : {0.0, 200.0})
+			for (const double offset : {0.0, 1.0}) {
+				const Situation now = bench().situation(rate, offset, 2);
+				const Placement ahead = placed({0.2, 1, 0.3}, 50 * degree, {0.1, -0.05, -1.2});
+				const QuadPicture quad{headLocked ? ahead : now.motion.head(0).holding(ahead), 1.5, 1.2, width, height};
+				const PanelReadings readings = bench().render(width, height, [&](Content content) {
+					PanelInputs all = bench().inputs(now);
+					PanelLayer &layer = all.layers.emplace_back();
+					layer.headLocked = headLocked;
+					for (size_t eye = 0; eye < 2; ++eye)
+						layer.quad[eye] = {
+							toPose(quad.quadInFrame), {float(quad.metresWide), float(quad.metresHigh)}, textures.texture(content)};
+					return all;
+				});
+				const Mapping mapping = [&](int eye, int channel, const Vector2d &pixel) {
+					return bench().reference().quadTexel(now, quad, headLocked, eye, channel, pixel);
+				};
+				judge(describe(headLocked ? "quad, head" : "quad, world", rate, offset, 2),
+					  bench().compare(readings, mapping, width, height, 2), 0.05);
+			}
+}
+
+INSTANTIATE_TEST_SUITE_P(Lenses, PanelAccuracy, testing::Values(LensChoice{"spline", true}, LensChoice{"polynomial", false}),
+						 [](const auto &info) { return std::string(info.param.name); });
+
+} // namespace
