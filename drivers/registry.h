@@ -1,0 +1,18 @@
+// Every driver there is, by name.
+#pragma once
+#include "runtime/device/driver.h"
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace arift
+{
+
+/// Names for makeDriver, in the order in which they are worth trying.
+std::vector<std::string> driverNames();
+
+/// "auto" is the first of them. Opens no device yet. Throws InputError for an unknown name and for wrong settings. The context's clock
+/// outlives the driver and its devices.
+std::unique_ptr<Driver> makeDriver(const std::string &name, const DriverContext &context);
+
+} // namespace arift
