@@ -6,14 +6,15 @@
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 
-namespace arift {
+namespace arift
+{
 
 /// When each panel line is seen. facts: DK1, 1280x800 CVT reduced blanking, 823 lines at 59.91 Hz.
 struct PanelTiming {
-	double refreshRate = 59.91;                 ///< nominal; the period is measured
-	XrDuration vblankToFirstLine = 182'260;     ///< ns
-	XrDuration lineTime = 20'250;               ///< ns, top to bottom
-	XrDuration settling = 16'800'000;           ///< ns: half of settling and persistence
+	double refreshRate = 59.91;             ///< nominal; the period is measured
+	XrDuration vblankToFirstLine = 182'260; ///< ns
+	XrDuration lineTime = 20'250;           ///< ns, top to bottom
+	XrDuration settling = 16'800'000;       ///< ns: half of settling and persistence
 	/// From vertical blank to the instant at which line `line` is seen.
 	XrDuration lineDelay(double line) const { return vblankToFirstLine + XrDuration(line * double(lineTime)) + settling; }
 };
@@ -31,9 +32,9 @@ struct ImuCalibration {
 
 struct RigCamera {
 	CameraModel model;
-	XrPosef cameraInHead = identityPose;  ///< OpenXR axes: the camera looks along -z, its image's rows run along +x
-	XrDuration timeOffset = 0;            ///< added to the driver's mid-exposure time
-	int32_t bayer = -1;                   ///< PixelFormat that overrides the driver's, or -1
+	XrPosef cameraInHead = identityPose; ///< OpenXR axes: the camera looks along -z, its image's rows run along +x
+	XrDuration timeOffset = 0;           ///< added to the driver's mid-exposure time
+	int32_t bayer = -1;                  ///< PixelFormat that overrides the driver's, or -1
 };
 
 struct Rig {
@@ -43,12 +44,17 @@ struct Rig {
 	PanelTiming timing;
 	double interpupillaryDistance = 0.064;
 	std::array<XrPosef, 2> eyeInHead;
-	std::vector<RigCamera> cameras;       ///< left, right; or none
+	std::vector<RigCamera> cameras; ///< left, right; or none
 	ImuCalibration imu;
 	XrVector3f pivotInHead{0, -0.075f, 0.0805f};
 };
 
 /// Throws InputError with file, line and value where the file is wrong. OCamCalib files it names are looked for beside it.
 Rig readRig(const std::filesystem::path &file);
+
+constexpr const char *defaultRig = "arift";
+/// The Rig file of this name: a path (anything with a slash or ending in .toml) as it is; else NAME.toml in $XDG_CONFIG_HOME/arift/rigs,
+/// the installed data folder, the source tree. Throws InputError that lists where it looked.
+std::filesystem::path findRig(const std::string &name);
 
 } // namespace arift
