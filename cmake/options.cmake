@@ -31,8 +31,25 @@ function(arift_test name)
   endif()
   add_executable(test_${name} ${TEST_SOURCES})
   target_link_libraries(test_${name} PRIVATE arift_options ${TEST_USES} GTest::gtest GTest::gtest_main)
-  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT ${TEST_TIMEOUT} ENVIRONMENT "${TEST_ENVIRONMENT}")
+  # Properties are set by a file that CTest reads after discovery: passed to gtest_discover_tests, a list falls apart.
+  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. TEST_LIST test_${name}_cases DISCOVERY_MODE PRE_TEST)
+  set(serial OFF)
+  if("e2e" IN_LIST TEST_LABELS)
+    set(serial ON) # whole systems that live by the clock: one at a time
+  endif()
+  set(properties ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_properties.cmake)
+  file(CONFIGURE OUTPUT ${properties} @ONLY CONTENT [[
+if(test_@name@_cases)
+  set_tests_properties(${test_@name@_cases} PROPERTIES LABELS "@TEST_LABELS@" TIMEOUT @TEST_TIMEOUT@ ENVIRONMENT "@TEST_ENVIRONMENT@" RUN_SERIAL @serial@)
+endif()
+]])
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${properties})
+  if("threads" IN_LIST TEST_LABELS)
+    if(NOT TARGET thread_tests)
+      add_custom_target(thread_tests) # what the tsan preset builds
+    endif()
+    add_dependencies(thread_tests test_${name})
+  endif()
 endfunction()
 
 # A Google Benchmark program; run by tools/test.sh, which prints its figures.
