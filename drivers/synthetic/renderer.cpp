@@ -153,15 +153,16 @@ void Renderer::drawMarker(const Marker &marker, const TileView &view, const Tile
 		const glm::vec3 ray{tile.rays.x[i], tile.rays.y[i], tile.rays.z[i]};
 		const glm::vec3 across = (rayAt(right, y) - rayAt(left, y)) / float(std::max(right - left, 1u));
 		const glm::vec3 down = (rayAt(x, below) - rayAt(x, above)) / float(std::max(below - above, 1u));
-		const float value = markerValue(marker, view, view.rotation * ray, view.rotation * across, view.rotation * down, image.distance[i],
+		const float value = markerValue(marker, view, view.rotation * ray, view.rotation * across, view.rotation * down,
 										view.channels[(x & 1) + 2 * (y & 1)], image.value[i]);
 		image.value[i] = uint8_t(std::lround(value));
 	}
 }
 
-/// The mean over the pixel's area. `ray` and its change per pixel are in the world; `distance` is that of what lies behind.
+/// The mean over the pixel's area. `ray` and its change per pixel are in the world. Nothing stands before a marker: half of one would be
+/// found beside its place.
 float Renderer::markerValue(const Marker &marker, const TileView &view, const glm::vec3 &ray, const glm::vec3 &across,
-							const glm::vec3 &down, float distance, uint32_t channel, float background) const
+							const glm::vec3 &down, uint32_t channel, float background) const
 {
 	const glm::vec3 centre(marker.position), normal = -glm::normalize(centre), offset = centre - view.origin;
 	const float height = glm::dot(normal, offset); // negative where the marker's face is seen
@@ -174,7 +175,7 @@ float Renderer::markerValue(const Marker &marker, const TileView &view, const gl
 		const float t = height / glm::dot(normal, direction);
 		const glm::vec3 fromCentre = direction * t - offset;
 		const float r2 = glm::dot(fromCentre, fromCentre);
-		const bool isSeen = height < 0 && t > 0 && t < distance && r2 <= 4 * radius2;
+		const bool isSeen = height < 0 && t > 0 && r2 <= 4 * radius2;
 		sum += !isSeen ? background : r2 <= radius2 && channel == 0 ? markerRed : 0;
 	}
 	return sum / (samplesAcross * samplesAcross);

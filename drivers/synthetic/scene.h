@@ -9,7 +9,8 @@
 namespace arift::synthetic
 {
 
-/// A saturated red disc (green and blue are black) on a black one of twice its radius, facing the world's origin.
+/// A saturated red disc (green and blue are black) on a black one of twice its radius, facing the world's origin; seen through whatever
+/// stands before it.
 struct Marker {
 	glm::dvec3 position{0}; ///< metres, world
 	double radius = 0;      ///< of the red disc, metres
