@@ -124,7 +124,10 @@ void Renderer::draw(const glm::dquat &headOrientation, const glm::dvec3 &headPos
 	std::vector<Cone> boxCones, markerCones;
 	for (const Box &box : scene_->boxes)
 		boxCones.push_back(coneOf((box.low + box.high) * 0.5f, glm::length(box.high - box.low) * 0.5f, view));
-	for (const Marker &marker : markers_) markerCones.push_back(coneOf(marker.position, float(2.1 * marker.radius), view));
+	for (const Marker &marker : markers_) {
+		const double pixel = 0.003 * glm::length(marker.position); // about one, so that none at the rim is missed
+		markerCones.push_back(coneOf(marker.position, float(2 * marker.radius + pixel), view));
+	}
 
 	std::minstd_rand random(uint32_t(image * 2654435761u + sensor_.seed));
 	std::vector<uint16_t> boxes;
@@ -137,20 +140,21 @@ void Renderer::draw(const glm::dquat &headOrientation, const glm::dvec3 &headPos
 				if (boxCones[i].meets(tile)) boxes.push_back(uint16_t(i));
 			renderTile(*scene_, view, tile.rays, boxes, tileImage);
 			for (size_t i = 0; i < markers_.size(); i++)
-				if (markerCones[i].meets(tile)) drawMarker(markers_[i], view, tile, column, row, tileImage);
+				if (markerCones[i].meets(tile)) drawMarker(markers_[i], markerCones[i], view, tile, column, row, tileImage);
 			store(tile, column, row, uint32_t(random()), tileImage, pixels);
 		}
 }
 
-void Renderer::drawMarker(const Marker &marker, const TileView &view, const Tile &tile, uint32_t column, uint32_t row,
+void Renderer::drawMarker(const Marker &marker, const Cone &cone, const TileView &view, const Tile &tile, uint32_t column, uint32_t row,
 						  TileImage &image) const
 {
 	for (uint32_t i = 0; i < tilePixels; i++) {
 		const uint32_t x = column * tileSize + i % tileSize, y = row * tileSize + i / tileSize;
 		if (x >= geometry_.width || y >= geometry_.height) continue;
+		const glm::vec3 ray{tile.rays.x[i], tile.rays.y[i], tile.rays.z[i]};
+		if (glm::dot(ray, cone.axis) < cone.cosine) continue;
 		const uint32_t left = x > 0 ? x - 1 : x, right = std::min(x + 1, geometry_.width - 1);
 		const uint32_t above = y > 0 ? y - 1 : y, below = std::min(y + 1, geometry_.height - 1);
-		const glm::vec3 ray{tile.rays.x[i], tile.rays.y[i], tile.rays.z[i]};
 		const glm::vec3 across = (rayAt(right, y) - rayAt(left, y)) / float(std::max(right - left, 1u));
 		const glm::vec3 down = (rayAt(x, below) - rayAt(x, above)) / float(std::max(below - above, 1u));
 		const float value = markerValue(marker, view, view.rotation * ray, view.rotation * across, view.rotation * down,
@@ -167,16 +171,23 @@ float Renderer::markerValue(const Marker &marker, const TileView &view, const gl
 	const glm::vec3 centre(marker.position), normal = -glm::normalize(centre), offset = centre - view.origin;
 	const float height = glm::dot(normal, offset); // negative where the marker's face is seen
 	const float radius2 = float(marker.radius * marker.radius);
-	float sum = 0;
-	for (uint32_t sample = 0; sample < samplesAcross * samplesAcross; sample++) {
-		const float sx = (float(sample % samplesAcross) + 0.5f) / samplesAcross - 0.5f;
-		const float sy = (float(sample / samplesAcross) + 0.5f) / samplesAcross - 0.5f;
-		const glm::vec3 direction = ray + across * sx + down * sy;
+	const auto sample = [&](const glm::vec3 &direction) {
 		const float t = height / glm::dot(normal, direction);
 		const glm::vec3 fromCentre = direction * t - offset;
 		const float r2 = glm::dot(fromCentre, fromCentre);
 		const bool isSeen = height < 0 && t > 0 && r2 <= 4 * radius2;
-		sum += !isSeen ? background : r2 <= radius2 && channel == 0 ? markerRed : 0;
+		return !isSeen ? background : r2 <= radius2 && channel == 0 ? markerRed : 0;
+	};
+	// Away from both rims, and seen at no grazing angle, one sample tells it all.
+	const float t = height / glm::dot(normal, ray), reach = 2 * t * (glm::length(across) + glm::length(down));
+	const float r = glm::length(ray * t - offset), radius = float(marker.radius);
+	const bool isPlain = std::abs(r - radius) > reach && std::abs(r - 2 * radius) > reach && glm::dot(normal, ray) < -0.5f;
+	if (isPlain) return sample(ray);
+	float sum = 0;
+	for (uint32_t i = 0; i < samplesAcross * samplesAcross; i++) {
+		const float sx = (float(i % samplesAcross) + 0.5f) / samplesAcross - 0.5f;
+		const float sy = (float(i / samplesAcross) + 0.5f) / samplesAcross - 0.5f;
+		sum += sample(ray + across * sx + down * sy);
 	}
 	return sum / (samplesAcross * samplesAcross);
 }

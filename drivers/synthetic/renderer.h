@@ -41,7 +41,8 @@ private:
 
 	Tile makeTile(uint32_t column, uint32_t row) const;
 	Cone coneOf(const glm::vec3 &centre, float radius, const TileView &view) const;
-	void drawMarker(const Marker &marker, const TileView &view, const Tile &tile, uint32_t column, uint32_t row, TileImage &image) const;
+	void drawMarker(const Marker &marker, const Cone &cone, const TileView &view, const Tile &tile, uint32_t column, uint32_t row,
+					TileImage &image) const;
 	float markerValue(const Marker &marker, const TileView &view, const glm::vec3 &ray, const glm::vec3 &across, const glm::vec3 &down,
 					  uint32_t channel, float background) const;
 	void store(const Tile &tile, uint32_t column, uint32_t row, uint32_t noise, TileImage &image, std::span<std::byte> pixels) const;

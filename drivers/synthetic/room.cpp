@@ -98,6 +98,7 @@ public:
 	RoomPainter()
 	{
 		scene_.room = room;
+		for (auto &plane : scene_.atlas) plane.reserve(size_t(3) << 20);
 		for (const Thing &thing : things()) scene_.boxes.push_back(thing.box);
 		const Paint shell[] = {paint::windowWall, paint::doorWall, paint::floorboards, paint::ceiling, paint::frontWall, paint::backWall};
 		const float density[] = {130, 130, 140, 40, 130, 90};
@@ -127,7 +128,6 @@ private:
 		point[axis] = isHigh ? box.high[axis] : box.low[axis];
 		normal[axis] = (isHigh ? 1.0f : -1.0f) * (own ? 1.0f : -1.0f);
 		const std::vector<Box> near = boxesNear(box, axis, point[axis], own);
-		for (auto &plane : scene_.atlas) plane.reserve(plane.size() + size_t(surface.width) * surface.height);
 		for (uint32_t row = 0; row < surface.height; row++)
 			for (uint32_t column = 0; column < surface.width; column++) {
 				point[first] = box.low[first] + (float(column) + 0.5f) / density;

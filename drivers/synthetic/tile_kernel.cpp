@@ -1,6 +1,5 @@
 #include "drivers/synthetic/tile_kernel.h"
 #include <algorithm>
-#include <limits>
 
 // Every loop here runs over the whole tile and has no branch, so that the compiler can use vectors. One version for any x86-64 and one for
 // those with AVX2; sanitizers and other machines get the plain one.
@@ -39,18 +38,16 @@ ARIFT_INLINE void turn(const glm::mat3 &rotation, const TileRays &rays, WorldRay
 /// The wall through which each ray leaves the room.
 ARIFT_INLINE void hitRoom(const Box &room, const glm::vec3 &origin, const WorldRays &world, TileImage &image)
 {
-	for (uint32_t i = 0; i < tilePixels; i++) image.distance[i] = std::numeric_limits<float>::max();
-	for (int axis = 0; axis < 3; axis++) {
-		const float low = room.low[axis] - origin[axis], high = room.high[axis] - origin[axis];
-		const int32_t face = 2 * axis;
-		for (uint32_t i = 0; i < tilePixels; i++) {
-			const float reciprocal = world.reciprocal[axis][i];
-			const bool isHigh = reciprocal > 0;
-			const float t = (isHigh ? high : low) * reciprocal;
-			const bool isNearer = t < image.distance[i];
-			image.surface[i] = isNearer ? (isHigh ? face + 1 : face) : image.surface[i];
-			image.distance[i] = isNearer ? t : image.distance[i];
-		}
+	const glm::vec3 low = room.low - origin, high = room.high - origin;
+	for (uint32_t i = 0; i < tilePixels; i++) {
+		const float rx = world.reciprocal[0][i], ry = world.reciprocal[1][i], rz = world.reciprocal[2][i];
+		const float x0 = low.x * rx, x1 = high.x * rx, y0 = low.y * ry, y1 = high.y * ry, z0 = low.z * rz, z1 = high.z * rz;
+		const float outX = x0 < x1 ? x1 : x0, outY = y0 < y1 ? y1 : y0, outZ = z0 < z1 ? z1 : z0; // one of each pair lies ahead
+		const int32_t faceX = rx > 0 ? 1 : 0, faceY = ry > 0 ? 3 : 2, faceZ = rz > 0 ? 5 : 4;
+		const float outXY = outX < outY ? outX : outY;
+		const int32_t faceXY = outX < outY ? faceX : faceY;
+		image.distance[i] = outXY < outZ ? outXY : outZ;
+		image.surface[i] = outXY < outZ ? faceXY : faceZ;
 	}
 }
 
@@ -84,40 +81,32 @@ ARIFT_INLINE void findTexels(const Surface &surface, int32_t index, const glm::v
 	const float scale = surface.texelsPerMetre;
 	const float firstOffset = (origin[first] - surface.low.x) * scale, secondOffset = (origin[second] - surface.low.y) * scale;
 	const float lastColumn = float(surface.width - 1), lastRow = float(surface.height - 1);
-	const float stride = float(surface.stride);
-	const int32_t base = int32_t(surface.base);
+	const int32_t base = int32_t(surface.base), stride = int32_t(surface.stride);
 	const float *u = world.direction[first], *v = world.direction[second];
 	for (uint32_t i = 0; i < tilePixels; i++) {
 		const float along = image.distance[i] * scale;
-		float column = firstOffset + along * u[i], row = secondOffset + along * v[i];
-		column = column > 0 ? column : 0;
-		column = column < lastColumn ? column : lastColumn;
-		row = row > 0 ? row : 0;
-		row = row < lastRow ? row : lastRow;
-		const int32_t texel = base + int32_t(float(int32_t(row)) * stride) + int32_t(column); // exact below 2^24
-		image.texel[i] = image.surface[i] == index ? texel : image.texel[i];
+		const float column = firstOffset + along * u[i], row = secondOffset + along * v[i];
+		const int32_t texelColumn = int32_t(std::min(std::max(0.0f, column), lastColumn));
+		const int32_t texelRow = int32_t(std::min(std::max(0.0f, row), lastRow));
+		const int32_t texel = base + texelRow * stride + texelColumn;
+		const int32_t before = image.texel[i], seen = image.surface[i];
+		image.texel[i] = seen == index ? texel : before;
 	}
 }
 
-/// The surfaces that occur in a tile: rarely more than three.
+/// Most tiles see one surface only, few more than three.
 ARIFT_INLINE void findAllTexels(const Scene &scene, const glm::vec3 &origin, const WorldRays &world, TileImage &image)
 {
-	int32_t remaining[tilePixels];
-	uint32_t count = tilePixels;
+	const int32_t first = image.surface[0];
+	int32_t differing = 0;
 	for (uint32_t i = 0; i < tilePixels; i++) {
-		remaining[i] = image.surface[i];
-		image.texel[i] = 0;
+		differing |= image.surface[i] ^ first;
+		image.texel[i] = -1;
 	}
-	while (count > 0) {
-		const int32_t index = remaining[0];
-		findTexels(scene.surfaces[size_t(index)], index, origin, world, image);
-		uint32_t kept = 0;
-		for (uint32_t i = 0; i < count; i++) {
-			remaining[kept] = remaining[i];
-			kept += remaining[i] != index;
-		}
-		count = kept;
-	}
+	findTexels(scene.surfaces[size_t(first)], first, origin, world, image);
+	if (differing == 0) return;
+	for (uint32_t i = 1; i < tilePixels; i++)
+		if (image.texel[i] < 0) findTexels(scene.surfaces[size_t(image.surface[i])], image.surface[i], origin, world, image);
 }
 
 ARIFT_INLINE void fetch(const TileView &view, TileImage &image)
@@ -138,7 +127,6 @@ ARIFT_VECTOR_VERSIONS void renderTile(const Scene &scene, const TileView &view, 
 {
 	WorldRays world;
 	turn(view.rotation, rays, world);
-	for (uint32_t i = 0; i < tilePixels; i++) image.surface[i] = 0;
 	hitRoom(scene.room, view.origin, world, image);
 	for (const uint16_t box : boxes) hitBox(scene.boxes[box], view.origin, 6 * (int32_t(box) + 1), world, image);
 	findAllTexels(scene, view.origin, world, image);

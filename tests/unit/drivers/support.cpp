@@ -1,0 +1,71 @@
+#include "tests/unit/drivers/support.h"
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <unistd.h>
+
+namespace arift::test {
+
+XrVector3f PlainLens::ray(double x, double y) const
+{
+	const glm::dvec2 offset = (glm::dvec2{x, y} - glm::dvec2{(width - 1) / 2.0, (height - 1) / 2.0}) / focalLength;
+	const double r = glm::length(offset), angle = isEquidistant ? r : std::atan(r);
+	const double scale = r > 0 ? std::sin(angle) / r : 1;
+	return toXr(glm::dvec3{offset.x * scale, offset.y * scale, std::cos(angle)});
+}
+
+glm::dvec2 PlainLens::project(const glm::dvec3 &d) const
+{
+	const double across = std::hypot(d.x, d.y), angle = std::atan2(across, d.z);
+	const double r = focalLength * (isEquidistant ? angle : std::tan(angle)) / (across > 0 ? across : 1);
+	return {(width - 1) / 2.0 + d.x * r, (height - 1) / 2.0 + d.y * r};
+}
+
+CameraGeometry PlainLens::geometry(const XrPosef &cameraInHead) const
+{
+	CameraGeometry geometry{.width = width, .height = height, .rays = {}, .cameraInHead = cameraInHead};
+	for (uint32_t y = 0; y < height; y++)
+		for (uint32_t x = 0; x < width; x++) geometry.rays.push_back(ray(x, y));
+	return geometry;
+}
+
+std::filesystem::path sharedData()
+{
+	const char *variable = std::getenv("ARIFT_SHARED");
+	const std::filesystem::path path =
+		variable ? std::filesystem::path(variable) : std::filesystem::path(__FILE__).parent_path() / "../../../../shared";
+	return std::filesystem::exists(path / "data") ? path / "data" : std::filesystem::path();
+}
+
+TemporaryFolder::TemporaryFolder()
+{
+	std::string name = (std::filesystem::temp_directory_path() / "arift-drivers-XXXXXX").string();
+	if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder: " + name);
+	path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+	std::error_code ignored;
+	std::filesystem::remove_all(path_, ignored);
+}
+
+std::filesystem::path TemporaryFolder::write(const std::string &name, const std::string &content) const
+{
+	const auto file = path_ / name;
+	std::filesystem::create_directories(file.parent_path());
+	std::ofstream(file, std::ios::binary) << content;
+	return file;
+}
+
+std::vector<std::byte> fromHex(const std::string &text)
+{
+	std::istringstream stream(text);
+	std::vector<std::byte> bytes;
+	for (unsigned value; stream >> std::hex >> value;) bytes.push_back(std::byte(value));
+	return bytes;
+}
+
+} // namespace arift::test

@@ -1,0 +1,41 @@
+// What the driver tests share: simple lenses, where the test data lies, temporary files.
+#pragma once
+#include "runtime/base/pose.h"
+#include "runtime/device/driver.h"
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace arift::test {
+
+/// A lens on paper: pixel = centre + f * (angle off the axis or its tangent) along the direction.
+struct PlainLens {
+	uint32_t width = 752, height = 480;
+	double focalLength = 420;
+	bool isEquidistant = true;
+
+	XrVector3f ray(double x, double y) const;
+	glm::dvec2 project(const glm::dvec3 &cvDirection) const;
+	CameraGeometry geometry(const XrPosef &cameraInHead = identityPose) const;
+};
+
+/// $ARIFT_SHARED, or `shared` beside the checkout; empty where there is none.
+std::filesystem::path sharedData();
+
+/// A folder of the test's own, removed at the end.
+class TemporaryFolder {
+public:
+	TemporaryFolder();
+	~TemporaryFolder();
+	TemporaryFolder(const TemporaryFolder &) = delete;
+	const std::filesystem::path &path() const { return path_; }
+	std::filesystem::path write(const std::string &name, const std::string &content) const;
+
+private:
+	std::filesystem::path path_;
+};
+
+/// The bytes of a hexadecimal dump.
+std::vector<std::byte> fromHex(const std::string &text);
+
+} // namespace arift::test
