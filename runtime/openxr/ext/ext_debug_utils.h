@@ -1,0 +1,39 @@
+// XR_EXT_debug_utils: applications hear of their mistakes. The loader keeps names and labels itself; here they are accepted.
+#pragma once
+#include "runtime/openxr/session.h"
+
+namespace arift::openxr
+{
+
+class DebugMessenger : public Object
+{
+public:
+	explicit DebugMessenger(const XrDebugUtilsMessengerCreateInfoEXT &info);
+	~DebugMessenger() override;
+	void requireAlive() const override {}
+	void send(XrDebugUtilsMessageSeverityFlagsEXT severity, XrDebugUtilsMessageTypeFlagsEXT types,
+			  const XrDebugUtilsMessengerCallbackDataEXT &data) const;
+
+private:
+	const XrDebugUtilsMessengerCreateInfoEXT info_;
+};
+
+template <> struct HandleOf<DebugMessenger> {
+	using type = XrDebugUtilsMessengerEXT;
+	static constexpr XrObjectType objectType = XR_OBJECT_TYPE_DEBUG_UTILS_MESSENGER_EXT;
+};
+
+/// To every messenger of this process that asked for it. `id` and `function` may be null.
+void sendToMessengers(XrDebugUtilsMessageSeverityFlagsEXT severity, XrDebugUtilsMessageTypeFlagsEXT types, const char *id,
+					  const char *function, const char *text) noexcept;
+
+void createDebugUtilsMessenger(Instance &instance, const XrDebugUtilsMessengerCreateInfoEXT &info, XrDebugUtilsMessengerEXT &messenger);
+void destroyDebugUtilsMessenger(EvenIfLost<DebugMessenger> messenger);
+void submitDebugUtilsMessage(Instance &instance, XrDebugUtilsMessageSeverityFlagsEXT severity, XrDebugUtilsMessageTypeFlagsEXT types,
+							 const XrDebugUtilsMessengerCallbackDataEXT &data);
+void setDebugUtilsObjectName(Instance &instance, const XrDebugUtilsObjectNameInfoEXT &info);
+void sessionBeginDebugUtilsLabelRegion(Session &session, const XrDebugUtilsLabelEXT &label);
+void sessionEndDebugUtilsLabelRegion(Session &session);
+void sessionInsertDebugUtilsLabel(Session &session, const XrDebugUtilsLabelEXT &label);
+
+} // namespace arift::openxr

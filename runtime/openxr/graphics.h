@@ -1,0 +1,58 @@
+// What a session needs of the application's graphics API. One implementation per API.
+#pragma once
+#include "runtime/base/unique_fd.h"
+#include "runtime/gpu/image_spec.h"
+#include "runtime/openxr/api.h"
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace arift::openxr
+{
+
+/// Work on the application's GPU that ends some time.
+class Completion
+{
+public:
+	virtual ~Completion() = default;
+	/// Whether the work is finished, or was by the end of `limit` of real time. Any thread.
+	virtual bool wait(XrDuration limit) const = 0;
+};
+
+/// The images of one swapchain in the application's graphics API. Destroying them waits, within a limit, for the work on them.
+class SwapchainImages
+{
+public:
+	virtual ~SwapchainImages() = default;
+	/// Throws XR_ERROR_VALIDATION_FAILURE for elements of another API's type.
+	virtual void describe(std::span<XrSwapchainImageBaseHeader *const> elements) const = 0;
+	/// In xrAcquireSwapchainImage: the compositor is done with the image, it becomes the application's.
+	virtual void takeOver(uint32_t image) = 0;
+	/// In xrReleaseSwapchainImage: the image is the compositor's when what is returned is finished.
+	virtual std::shared_ptr<Completion> handOver(uint32_t image) = 0;
+	/// Size of one of the elements that xrEnumerateSwapchainImages fills.
+	virtual size_t elementSize() const = 0;
+};
+
+/// Memory the service allocated for a swapchain's images.
+struct SharedMemory {
+	std::span<UniqueFd> fds; ///< one opaque fd per image
+	uint64_t size = 0;       ///< bytes of each
+	uint32_t typeIndex = 0;
+};
+
+class Graphics
+{
+public:
+	virtual ~Graphics() = default;
+	virtual std::array<uint8_t, 16> deviceUuid() const = 0;
+	virtual std::array<uint8_t, 16> driverUuid() const = 0;
+	/// Swapchain formats, the runtime's favourite first.
+	virtual const std::vector<int64_t> &formats() const = 0;
+	/// What the service is to make for a swapchain. Throws XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED or XR_ERROR_FEATURE_UNSUPPORTED.
+	virtual gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info) const = 0;
+	virtual std::unique_ptr<SwapchainImages> import(const gpu::ImageSpec &spec, const SharedMemory &memory) = 0;
+};
+
+} // namespace arift::openxr

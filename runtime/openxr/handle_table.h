@@ -1,0 +1,92 @@
+// Who owns every object behind an OpenXR handle, and which handles are valid.
+// A handle is generation and index of a slot: null, stale and foreign handles are told apart without touching freed memory. Looking one up
+// takes no lock. Destroying a handle destroys its children first, as the specification's "Object Handle Types" asks.
+#pragma once
+#include "runtime/openxr/error.h"
+#include <array>
+#include <atomic>
+#include <concepts>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace arift::openxr
+{
+
+/// What every handle stands for.
+class Object
+{
+public:
+	Object() = default;
+	Object(const Object &) = delete;
+	virtual ~Object() = default;
+	/// Throws XR_ERROR_INSTANCE_LOST or XR_ERROR_SESSION_LOST where nothing can be done with the object any more but destroying it.
+	virtual void requireAlive() const = 0;
+	uint64_t handleValue() const { return handle_; }
+
+private:
+	friend class HandleTable;
+	uint64_t handle_ = 0;
+};
+
+/// T's handle type and XrObjectType: HandleOf<Session>::type is XrSession.
+template <typename T> struct HandleOf;
+template <typename T>
+concept HandleObject = std::derived_from<std::remove_const_t<T>, Object>;
+
+template <HandleObject T> typename HandleOf<std::remove_const_t<T>>::type handleOf(const T &object)
+{
+	return reinterpret_cast<typename HandleOf<std::remove_const_t<T>>::type>(object.handleValue());
+}
+
+class HandleTable
+{
+public:
+	static constexpr uint32_t slotCount = 1u << 16;
+
+	/// Takes ownership. `parent` (null for an instance) must be in the table. Throws XR_ERROR_LIMIT_REACHED.
+	template <HandleObject T> typename HandleOf<T>::type insert(std::unique_ptr<T> object, const Object *parent)
+	{
+		const uint64_t handle = put(object.get(), HandleOf<T>::objectType, parent);
+		object.release();
+		return reinterpret_cast<typename HandleOf<T>::type>(handle);
+	}
+
+	template <HandleObject T> T &at(typename HandleOf<std::remove_const_t<T>>::type handle) const
+	{
+		return static_cast<T &>(find(reinterpret_cast<uint64_t>(handle), HandleOf<std::remove_const_t<T>>::objectType));
+	}
+
+	/// Destroys the object and all below it, youngest generation first.
+	void destroy(const Object &object);
+	/// As destroy, but the objects are only forgotten: in a forked child their threads do not exist and their sockets are the parent's.
+	void forget(const Object &object);
+	/// Objects alive.
+	uint32_t size() const;
+
+private:
+	struct Slot {
+		std::atomic<uint64_t> handle{0}; ///< 0 while free
+		Object *object = nullptr;
+		XrObjectType type = XR_OBJECT_TYPE_UNKNOWN;
+		uint32_t generation = 0;
+		uint32_t parent = slotCount; ///< slotCount: none
+		uint32_t nextFree = slotCount;
+	};
+
+	uint64_t put(Object *object, XrObjectType type, const Object *parent);
+	Object &find(uint64_t handle, XrObjectType type) const;
+	std::vector<Object *> takeOut(const Object &object);
+
+	mutable std::mutex mutex_;
+	uint32_t used_ = 0;
+	uint32_t alive_ = 0;
+	uint32_t firstFree_ = slotCount;
+	std::array<Slot, slotCount> slots_{};
+};
+
+/// Lies in zeroed memory and has no destructor that runs at exit.
+extern HandleTable handles;
+
+} // namespace arift::openxr

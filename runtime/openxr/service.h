@@ -1,0 +1,81 @@
+// The service as this process sees it: requests with bounded waits, the pages it shares, and whether it is still there.
+#pragma once
+#include "runtime/base/clock.h"
+#include "runtime/ipc/request.h"
+#include "runtime/ipc/shared_memory.h"
+#include "runtime/motion/pose_history.h"
+#include "runtime/openxr/error.h"
+#include "runtime/openxr/fork.h"
+#include <atomic>
+#include <memory>
+
+namespace arift::openxr
+{
+
+class Service
+{
+public:
+	/// A service that has not stirred for so long (real time) is lost.
+	static constexpr XrDuration silenceLimit = 2 * second;
+	/// How long a request may take (real time). A software renderer allocates and clears images in it.
+	static constexpr XrDuration requestLimit = 5 * second;
+
+	/// Connects, and starts the service when none runs. Throws XR_ERROR_RUNTIME_UNAVAILABLE with the sentence that says what to do.
+	explicit Service(const ipc::Hello &hello);
+
+	const ipc::Welcome &welcome() const { return answer_.reply; }
+	const PoseHistory &poses() const { return poses_; }
+	const ipc::ClientPage &client() const { return *client_; }
+	/// Both throw XR_ERROR_INSTANCE_LOST when the page can not be read: its writer died half-way.
+	ipc::ViewTable views() const { return read(system_->views); }
+	ipc::TimingTable timing() const { return read(system_->timing); }
+	ClockAnchor clock() const;
+	/// Now, in the time of the service's clock.
+	XrTime now() const { return clock().at(realTime()); }
+
+	/// Sends a request; its answer, or an Error with the result the service gave.
+	template <typename Reply, typename Request> ipc::Answer<Reply> ask(const Request &request)
+	{
+		requireAlive();
+		auto answer = requests_->ask<Reply>(request, requestLimit);
+		if (answer.how == ipc::Answered::hungUp) lose("it has gone away");
+		if (answer.how == ipc::Answered::timeout) lose("it did not answer in time");
+		requireAlive();
+		if (!answer) throw Error(XrResult(answer.failure.result), "the service: {}", ipc::textOf(answer.failure.text));
+		return answer;
+	}
+
+	/// After a fork, in the child.
+	bool isOfAnotherProcess() const { return forkCount_ != forkCount(); }
+	/// No system call, unless the news is bad.
+	bool isLost() const;
+	void requireAlive() const
+	{
+		if (isLost()) throw Error(XR_ERROR_INSTANCE_LOST, "the connection to arift-service is lost");
+	}
+	/// One system call: whether the connection has ended.
+	void noticeHangUp() const;
+	/// Says once why, and lets every later call fail at once.
+	void lose(const char *why) const;
+
+private:
+	Service(const ipc::Hello &hello, ipc::Socket socket);
+	template <typename T> T read(const ipc::Published<T> &published) const
+	{
+		if (const auto value = published.read()) return *value;
+		lose("its shared page is torn");
+		throw Error(XR_ERROR_INSTANCE_LOST, "the service's shared page is torn");
+	}
+
+	std::unique_ptr<ipc::Requests> requests_;
+	ipc::Answer<ipc::Welcome> answer_;
+	ipc::SharedPageView<ipc::SystemPage> system_;
+	ipc::SharedPageView<PoseRing> ring_;
+	ipc::SharedPageView<ipc::ClientPage> client_;
+	PoseHistory poses_;
+	uint32_t forkCount_;
+	ClosedInChildren closedInChildren_;
+	mutable std::atomic<bool> lost_{false};
+};
+
+} // namespace arift::openxr

@@ -1,0 +1,208 @@
+#include "runtime/openxr/space.h"
+#include "runtime/motion/view_poses.h"
+#include "runtime/openxr/action.h"
+
+namespace arift::openxr
+{
+namespace
+{
+
+constexpr XrSpaceLocationFlags oriented = XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
+constexpr XrSpaceLocationFlags placed = XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
+constexpr XrSpaceLocationFlags tracked = placed | XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
+constexpr XrSpaceVelocityFlags moving = XR_SPACE_VELOCITY_LINEAR_VALID_BIT | XR_SPACE_VELOCITY_ANGULAR_VALID_BIT;
+
+/// How well the head's place is known. Its position is the neck model's, which is valid but not tracked.
+XrSpaceLocationFlags flagsOf(const HeadMotion &head)
+{
+	switch (head.found) {
+	case Found::none: return 0;
+	case Found::frozen: return placed;
+	default: return placed | XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT;
+	}
+}
+
+std::optional<Space::Kind> kindOf(XrReferenceSpaceType type, bool is1_1)
+{
+	switch (int(type)) {
+	case XR_REFERENCE_SPACE_TYPE_VIEW: return Space::Kind::view;
+	case XR_REFERENCE_SPACE_TYPE_LOCAL: return Space::Kind::local;
+	case XR_REFERENCE_SPACE_TYPE_STAGE: return Space::Kind::stage;
+	case XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR: return is1_1 ? std::optional(Space::Kind::localFloor) : std::nullopt;
+	default: return std::nullopt;
+	}
+}
+
+Space::Kind requireReferenceSpace(const Session &session, XrReferenceSpaceType type)
+{
+	const auto kind = kindOf(type, session.instance.is1_1());
+	if (!kind) throw Error(XR_ERROR_REFERENCE_SPACE_UNSUPPORTED, "reference space {} is not supported", int(type));
+	return *kind;
+}
+
+void requireSameSession(const Session &session, const Space &space, const char *what)
+{
+	if (&space.session != &session) throw Error(XR_ERROR_VALIDATION_FAILURE, "{} belongs to another session", what);
+}
+
+Space &requireSpace(const Session &session, XrSpace handle, const char *what)
+{
+	Space &space = handles.at<Space>(handle);
+	requireSameSession(session, space, what);
+	return space;
+}
+
+void writeVelocity(const Located &located, XrSpaceVelocityFlags &flags, XrVector3f &linear, XrVector3f &angular)
+{
+	flags = located.velocityFlags;
+	linear = located.motion.linearVelocity;
+	angular = located.motion.angularVelocity;
+}
+
+} // namespace
+
+void requireTime(XrTime time)
+{
+	if (time <= 0) throw Error(XR_ERROR_TIME_INVALID, "{} is no time", time);
+}
+
+XrPosef requirePose(const XrPosef &pose, const char *what)
+{
+	const auto &[orientation, position] = pose;
+	if (!isValidPose(pose))
+		throw Error(XR_ERROR_POSE_INVALID, "{} has the orientation ({}, {}, {}, {}) and position ({}, {}, {})", what, orientation.x,
+					orientation.y, orientation.z, orientation.w, position.x, position.y, position.z);
+	return {toXr(glm::normalize(toGlm(orientation))), position};
+}
+
+Locator::Locator(const Session &session, XrTime time)
+	: views_(session.instance.service.views()), head_(session.instance.service.poses().at(time))
+{
+}
+
+std::optional<FrameMotion> Locator::inOrigin(const Space &space) const
+{
+	switch (space.kind) {
+	case Space::Kind::view:
+		if (head_.found == Found::none) return std::nullopt;
+		return carried(viewSpaceInOrigin(views_, head_), space.offset);
+	case Space::Kind::local: return carried({.pose = localInOrigin(views_)}, space.offset);
+	case Space::Kind::localFloor: return carried({.pose = localFloorInOrigin(views_)}, space.offset);
+	case Space::Kind::stage: return carried({.pose = stageInOrigin(views_)}, space.offset);
+	case Space::Kind::action: break;
+	}
+	return std::nullopt;
+}
+
+Located locate(const Locator &locator, const Space &space, const Space &base)
+{
+	if (space.kind == base.kind && space.kind != Space::Kind::action) {
+		// Both hang on the same frame: exactly where they are in each other, whether or not anything is tracked.
+		const FrameMotion still = relativeTo({.pose = base.offset}, {.pose = space.offset});
+		return {tracked, moving, still};
+	}
+	const auto baseInOrigin = locator.inOrigin(base);
+	const auto spaceInOrigin = locator.inOrigin(space);
+	if (!baseInOrigin || !spaceInOrigin) return {};
+	const bool onHead = space.isHeadLocked() || base.isHeadLocked();
+	return {onHead ? flagsOf(locator.head()) : tracked, moving, relativeTo(*baseInOrigin, *spaceInOrigin)};
+}
+
+XrResult enumerateReferenceSpaces(Session &session, OutputArray<XrReferenceSpaceType> types)
+{
+	constexpr std::array all{XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL, XR_REFERENCE_SPACE_TYPE_STAGE,
+							 XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR};
+	return types.assign(std::span(all).first(session.instance.is1_1() ? 4 : 3));
+}
+
+void createReferenceSpace(Session &session, const XrReferenceSpaceCreateInfo &info, XrSpace &space)
+{
+	const Space::Kind kind = requireReferenceSpace(session, info.referenceSpaceType);
+	const XrPosef pose = requirePose(info.poseInReferenceSpace, "poseInReferenceSpace");
+	space = handles.insert(std::make_unique<Space>(session, kind, pose), &session);
+}
+
+XrResult getReferenceSpaceBoundsRect(Session &session, XrReferenceSpaceType type, XrExtent2Df &bounds)
+{
+	bounds = {0, 0};
+	if (requireReferenceSpace(session, type) != Space::Kind::stage) return XR_SPACE_BOUNDS_UNAVAILABLE;
+	const auto size = session.instance.service.views().stageBounds;
+	if (!(size[0] > 0 && size[1] > 0)) return XR_SPACE_BOUNDS_UNAVAILABLE;
+	bounds = {size[0], size[1]};
+	return XR_SUCCESS;
+}
+
+void createActionSpace(Session &session, const XrActionSpaceCreateInfo &info, XrSpace &space)
+{
+	const Action &action = handles.at<Action>(info.action);
+	if (action.type != XR_ACTION_TYPE_POSE_INPUT)
+		throw Error(XR_ERROR_ACTION_TYPE_MISMATCH, "action \"{}\" is not a pose input", action.name);
+	action.requireSubaction(info.subactionPath);
+	const XrPosef pose = requirePose(info.poseInActionSpace, "poseInActionSpace");
+	space = handles.insert(std::make_unique<Space>(session, Space::Kind::action, pose), &session);
+}
+
+void locateSpace(Space &space, Space &base, XrTime time, XrSpaceLocation &location)
+{
+	requireTime(time);
+	requireSameSession(space.session, base, "baseSpace");
+	const Located located = locate(Locator(space.session, time), space, base);
+	location.locationFlags = located.locationFlags;
+	location.pose = located.motion.pose;
+	if (auto *velocity = findInChain<XrSpaceVelocity>(location.next))
+		writeVelocity(located, velocity->velocityFlags, velocity->linearVelocity, velocity->angularVelocity);
+}
+
+void locateSpaces(Session &session, const XrSpacesLocateInfo &info, XrSpaceLocations &locations)
+{
+	requireTime(info.time);
+	auto *velocities = findInChain<XrSpaceVelocities>(locations.next);
+	if (info.spaceCount == 0 || !info.spaces) throw Error(XR_ERROR_VALIDATION_FAILURE, "there are no spaces to locate");
+	if (locations.locationCount != info.spaceCount || !locations.locations)
+		throw Error(XR_ERROR_VALIDATION_FAILURE, "locationCount is {}, not {}", locations.locationCount, info.spaceCount);
+	if (velocities && (velocities->velocityCount != info.spaceCount || !velocities->velocities))
+		throw Error(XR_ERROR_VALIDATION_FAILURE, "velocityCount is {}, not {}", velocities->velocityCount, info.spaceCount);
+	const Space &base = requireSpace(session, info.baseSpace, "baseSpace");
+	for (uint32_t i = 0; i < info.spaceCount; ++i) requireSpace(session, info.spaces[i], "a space to locate");
+	const Locator locator(session, info.time);
+	for (uint32_t i = 0; i < info.spaceCount; ++i) {
+		const Located located = locate(locator, handles.at<Space>(info.spaces[i]), base);
+		locations.locations[i] = {located.locationFlags, located.motion.pose};
+		if (!velocities) continue;
+		XrSpaceVelocityData &velocity = velocities->velocities[i];
+		writeVelocity(located, velocity.velocityFlags, velocity.linearVelocity, velocity.angularVelocity);
+	}
+}
+
+void destroySpace(EvenIfLost<Space> space) { handles.destroy(*space); }
+
+XrResult locateViews(Session &session, const XrViewLocateInfo &info, XrViewState &state, OutputArray<XrView> views)
+{
+	requireStereo(info.viewConfigurationType);
+	requireTime(info.displayTime);
+	const Space &space = requireSpace(session, info.space, "space");
+	state.viewStateFlags = 0;
+	if (views.capacity == 0) return views.fill(2, [](uint32_t, XrView &) {});
+	const Service &service = session.instance.service;
+	const Locator locator(session, info.displayTime);
+	const auto base = locator.inOrigin(space);
+	const ipc::ViewTable &table = locator.views();
+	const bool located = base && locator.head().found != Found::none;
+	const XrPosef toSpace = located ? inverse(base->pose) : identityPose;
+	const ipc::TimingTable timing = service.timing();
+	const XrResult result = views.fill(2, [&](uint32_t eye, XrView &view) {
+		view.fov = table.fov[eye];
+		view.pose = identityPose;
+		if (!located) return;
+		const XrTime exposure = exposureShownAt(timing.cameras[eye], info.displayTime, timing.latchBeforeDisplay);
+		HeadMotion atExposure = table.viewOffset > 0 ? service.poses().at(exposure) : locator.head();
+		if (atExposure.found == Found::none) atExposure = locator.head();
+		view.pose = toSpace * viewInOrigin(table, eye, locator.head(), atExposure);
+	});
+	static_assert(XR_VIEW_STATE_ORIENTATION_VALID_BIT == oriented);
+	// Bit for bit the same as XrSpaceLocationFlags.
+	if (located && XR_SUCCEEDED(result)) state.viewStateFlags = flagsOf(locator.head());
+	return result;
+}
+
+} // namespace arift::openxr

@@ -1,0 +1,192 @@
+#include "runtime/openxr/swapchain.h"
+#include <time.h>
+
+namespace arift::openxr
+{
+namespace
+{
+
+/// One being shown, one on its way, one being drawn.
+constexpr uint32_t usualImages = 3;
+/// How often a wait looks whether the compositor has let go: no wake-up crosses the process boundary.
+constexpr XrDuration lookAgain = 200 * microsecond;
+
+void requireCreateInfo(const XrSwapchainCreateInfo &info, const ipc::Welcome &welcome)
+{
+	constexpr XrSwapchainCreateFlags knownFlags = XR_SWAPCHAIN_CREATE_PROTECTED_CONTENT_BIT | XR_SWAPCHAIN_CREATE_STATIC_IMAGE_BIT;
+	if (info.createFlags & ~knownFlags) throw Error(XR_ERROR_VALIDATION_FAILURE, "createFlags {:#x} has unknown bits", info.createFlags);
+	if (info.width == 0 || info.height == 0 || info.arraySize == 0 || info.mipCount == 0 || info.sampleCount == 0)
+		throw Error(XR_ERROR_VALIDATION_FAILURE, "an image of {}x{}, {} layers, {} levels and {} samples is none", info.width, info.height,
+					info.arraySize, info.mipCount, info.sampleCount);
+	if (info.faceCount != 1 && info.faceCount != 6) throw Error(XR_ERROR_VALIDATION_FAILURE, "faceCount is {}, not 1 or 6", info.faceCount);
+	if (info.createFlags & XR_SWAPCHAIN_CREATE_PROTECTED_CONTENT_BIT)
+		throw Error(XR_ERROR_FEATURE_UNSUPPORTED, "protected content is not supported");
+	if (info.width > welcome.maxWidth || info.height > welcome.maxHeight)
+		throw Error(XR_ERROR_FEATURE_UNSUPPORTED, "{}x{} is larger than {}x{}", info.width, info.height, welcome.maxWidth,
+					welcome.maxHeight);
+	if (info.sampleCount > 1)
+		throw Error(XR_ERROR_FEATURE_UNSUPPORTED, "{} samples are more than maxSwapchainSampleCount", info.sampleCount);
+	if (info.faceCount == 6 && info.width != info.height)
+		throw Error(XR_ERROR_VALIDATION_FAILURE, "a cube's faces are square, not {}x{}", info.width, info.height);
+}
+
+gpu::ImageSpec specFor(const Session &session, const XrSwapchainCreateInfo &info)
+{
+	requireCreateInfo(info, session.instance.service.welcome());
+	if (!session.graphics()) throw Error(XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED, "a headless session has no swapchains");
+	return session.graphics()->specOf(info);
+}
+
+ipc::Answer<ipc::SwapchainCreated> allocate(const Session &session, const gpu::ImageSpec &spec, bool isStatic)
+{
+	ipc::CreateSwapchain request;
+	request.session = session.id();
+	request.imageCount = isStatic ? 1 : usualImages;
+	request.spec = spec;
+	auto answer = session.instance.service.ask<ipc::SwapchainCreated>(request);
+	const uint32_t count = answer.reply.imageCount;
+	if (count < request.imageCount || count > ipc::maxImages || answer.fdCount != count)
+		throw Error(XR_ERROR_RUNTIME_FAILURE, "arift-service allocated {} images and sent {} of them instead of {}", count, answer.fdCount,
+					request.imageCount);
+	return answer;
+}
+
+void sleepFor(XrDuration duration)
+{
+	const timespec time{.tv_sec = 0, .tv_nsec = long(duration)};
+	::nanosleep(&time, nullptr);
+}
+
+} // namespace
+
+Swapchain::Swapchain(Session &owner, const XrSwapchainCreateInfo &info)
+	: session(owner),
+	  spec_(specFor(session, info)),
+	  shared_(allocate(session, spec_, info.createFlags & XR_SWAPCHAIN_CREATE_STATIC_IMAGE_BIT)),
+	  images_(session.graphics()->import(
+		  spec_, {std::span(shared_.fds).first(shared_.reply.imageCount), shared_.reply.memorySize, shared_.reply.memoryTypeIndex})),
+	  turns_(Turns{ImageQueue(shared_.reply.imageCount, info.createFlags & XR_SWAPCHAIN_CREATE_STATIC_IMAGE_BIT),
+				   std::vector<std::shared_ptr<Completion>>(shared_.reply.imageCount)})
+{
+}
+
+Swapchain::~Swapchain()
+{
+	// No submission that names its images may come after the message that destroys them.
+	session.drainSubmissions();
+	try {
+		const Service &service = session.instance.service;
+		if (!service.isLost()) session.instance.service.ask<ipc::Done>(ipc::DestroySwapchain{.swapchain = id()});
+	} catch (const std::exception &problem) {
+		log::warning("xrDestroySwapchain: {}", problem.what());
+	}
+}
+
+XrResult Swapchain::describe(OutputArray<XrSwapchainImageBaseHeader> images) const
+{
+	const uint32_t count = shared_.reply.imageCount;
+	*images.count = count;
+	if (images.capacity == 0) return XR_SUCCESS;
+	if (images.capacity < count) return XR_ERROR_SIZE_INSUFFICIENT;
+	if (!images.elements) throw Error(XR_ERROR_VALIDATION_FAILURE, "images is null but its capacity is {}", images.capacity);
+	std::vector<XrSwapchainImageBaseHeader *> elements(count);
+	for (uint32_t i = 0; i < count; ++i)
+		elements[i] =
+			reinterpret_cast<XrSwapchainImageBaseHeader *>(reinterpret_cast<std::byte *>(images.elements) + i * images_->elementSize());
+	images_->describe(elements);
+	return XR_SUCCESS;
+}
+
+uint64_t Swapchain::oldestHeld() const { return session.instance.service.client().oldestHeldFrame.load(std::memory_order_acquire); }
+
+uint32_t Swapchain::acquire()
+{
+	uint32_t image = 0;
+	turns_.update([&](Turns &turns) {
+		image = turns.queue.acquire(oldestHeld());
+		// An image the compositor may still read stays its own: the application gets it after a wait, and without its contents, so that
+		// Vulkan asks for no transfer ("Queue Family Ownership Transfer": a transfer may be left out when contents need not survive).
+		if (turns.queue.isFree(image, oldestHeld())) images_->takeOver(image);
+	});
+	return image;
+}
+
+bool Swapchain::wait(XrDuration timeout)
+{
+	const XrTime begin = realTime();
+	const XrTime end = timeout > XR_INFINITE_DURATION - begin ? XR_INFINITE_DURATION : begin + std::max<XrDuration>(timeout, 0);
+	const XrDuration refresh = std::clamp<XrDuration>(session.instance.service.timing().displayPeriod, millisecond, 100 * millisecond);
+	bool relinquished = false;
+	for (;;) {
+		uint64_t lastFrame = 0;
+		bool holdsAll = false;
+		{
+			auto turns = turns_.lock();
+			const uint32_t image = turns->queue.toWaitFor();
+			if (turns->queue.isFree(image, oldestHeld())) {
+				turns->queue.waited();
+				return true;
+			}
+			lastFrame = turns->queue.lastFrame(image);
+			holdsAll = turns->queue.allAcquired();
+		}
+		const XrTime now = realTime();
+		if (now >= end) return false;
+		session.requireAlive();
+		if (holdsAll && !relinquished && now - begin >= refresh) {
+			session.relinquish(lastFrame);
+			relinquished = true;
+		}
+		sleepFor(std::min(lookAgain, end - now));
+	}
+}
+
+void Swapchain::release()
+{
+	turns_.update([&](Turns &turns) {
+		const uint32_t image = turns.queue.toRelease();
+		turns.work[image] = images_->handOver(image);
+		turns.queue.release();
+	});
+}
+
+std::optional<uint32_t> Swapchain::newestImage() { return turns_.lock()->queue.newest(); }
+
+std::shared_ptr<Completion> Swapchain::workOn(uint32_t image) { return turns_.lock()->work[image]; }
+
+void Swapchain::noteSubmitted(uint32_t image, uint64_t frame) { turns_.lock()->queue.submitted(image, frame); }
+
+XrResult enumerateSwapchainFormats(Session &session, OutputArray<int64_t> formats)
+{
+	if (!session.graphics()) return formats.assign({});
+	return formats.assign(session.graphics()->formats());
+}
+
+void createSwapchain(Session &session, const XrSwapchainCreateInfo &info, XrSwapchain &swapchain)
+{
+	swapchain = handles.insert(std::make_unique<Swapchain>(session, info), &session);
+}
+
+void destroySwapchain(EvenIfLost<Swapchain> swapchain)
+{
+	if (swapchain->session.instance.service.isOfAnotherProcess())
+		handles.forget(*swapchain);
+	else
+		handles.destroy(*swapchain);
+}
+
+XrResult enumerateSwapchainImages(Swapchain &swapchain, OutputArray<XrSwapchainImageBaseHeader> images)
+{
+	return swapchain.describe(images);
+}
+
+void acquireSwapchainImage(Swapchain &swapchain, const XrSwapchainImageAcquireInfo *, uint32_t &index) { index = swapchain.acquire(); }
+
+XrResult waitSwapchainImage(Swapchain &swapchain, const XrSwapchainImageWaitInfo &info)
+{
+	return swapchain.wait(info.timeout) ? XR_SUCCESS : XR_TIMEOUT_EXPIRED;
+}
+
+void releaseSwapchainImage(Swapchain &swapchain, const XrSwapchainImageReleaseInfo *) { swapchain.release(); }
+
+} // namespace arift::openxr

@@ -1,0 +1,42 @@
+#include "runtime/openxr/vulkan/vulkan_api.h"
+
+namespace arift::openxr
+{
+namespace
+{
+
+template <typename Pfn, typename Loader, typename Owner> Pfn find(Loader loader, Owner owner, const char *name)
+{
+	const auto function = reinterpret_cast<Pfn>(loader(owner, name));
+	if (!function) throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "the application's Vulkan has no {}", name);
+	return function;
+}
+
+} // namespace
+
+#define ARIFT_FIND(name) name(find<PFN_vk##name>(loader, owner, "vk" #name)),
+
+VulkanInstanceApi::VulkanInstanceApi(PFN_vkGetInstanceProcAddr loader, VkInstance owner)
+	: ARIFT_VK_INSTANCE_FUNCTIONS(ARIFT_FIND) GetPhysicalDeviceProperties2(
+		  reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(loader(owner, "vkGetPhysicalDeviceProperties2")))
+{
+	if (!GetPhysicalDeviceProperties2)
+		GetPhysicalDeviceProperties2 =
+			reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(loader(owner, "vkGetPhysicalDeviceProperties2KHR"));
+}
+
+#undef ARIFT_FIND
+#define ARIFT_FIND(name) name = find<PFN_vk##name>(loader, owner, "vk" #name);
+
+VulkanDeviceApi::VulkanDeviceApi(PFN_vkGetDeviceProcAddr loader, VkDevice owner) { ARIFT_VK_DEVICE_FUNCTIONS(ARIFT_FIND) }
+
+#undef ARIFT_FIND
+
+void requireSuccess(VkResult result, const char *call)
+{
+	if (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+		throw Error(XR_ERROR_OUT_OF_MEMORY, "{} returned VkResult {}", call, int(result));
+	if (result < 0) throw Error(XR_ERROR_RUNTIME_FAILURE, "{} returned VkResult {}", call, int(result));
+}
+
+} // namespace arift::openxr

@@ -1,0 +1,173 @@
+#include "runtime/openxr/vulkan/vulkan_graphics.h"
+#include "runtime/openxr/vulkan/vulkan_images.h"
+#include <algorithm>
+
+namespace arift::openxr
+{
+namespace
+{
+
+/// Encoded formats first: an application that takes the first one gets its colours right.
+constexpr std::array candidates{
+	VK_FORMAT_R8G8B8A8_SRGB,       VK_FORMAT_B8G8R8A8_SRGB,      VK_FORMAT_R8G8B8A8_UNORM,           VK_FORMAT_B8G8R8A8_UNORM,
+	VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16B16A16_UNORM, VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_D32_SFLOAT,
+	VK_FORMAT_D16_UNORM,           VK_FORMAT_D24_UNORM_S8_UINT,  VK_FORMAT_D32_SFLOAT_S8_UINT};
+
+std::vector<int64_t> usableFormats(const VulkanInstanceApi &vulkan, VkPhysicalDevice device)
+{
+	std::vector<int64_t> formats;
+	for (const VkFormat format : candidates) {
+		VkFormatProperties properties{};
+		vulkan.GetPhysicalDeviceFormatProperties(device, format, &properties);
+		const VkFormatFeatureFlags needed =
+			VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
+			(gpu::isDepth(format) ? VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT);
+		if ((properties.optimalTilingFeatures & needed) == needed) formats.push_back(format);
+	}
+	return formats;
+}
+
+VkImageUsageFlags usageOf(XrSwapchainUsageFlags flags)
+{
+	struct Pair {
+		XrSwapchainUsageFlags xr;
+		VkImageUsageFlags vulkan;
+	};
+	constexpr Pair pairs[] = {
+		{XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT},
+		{XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT},
+		{XR_SWAPCHAIN_USAGE_UNORDERED_ACCESS_BIT, VK_IMAGE_USAGE_STORAGE_BIT},
+		{XR_SWAPCHAIN_USAGE_TRANSFER_SRC_BIT, VK_IMAGE_USAGE_TRANSFER_SRC_BIT},
+		{XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT, VK_IMAGE_USAGE_TRANSFER_DST_BIT},
+		{XR_SWAPCHAIN_USAGE_SAMPLED_BIT, VK_IMAGE_USAGE_SAMPLED_BIT},
+	};
+	XrSwapchainUsageFlags left = flags & ~XR_SWAPCHAIN_USAGE_MUTABLE_FORMAT_BIT;
+	VkImageUsageFlags usage = 0;
+	for (const Pair &pair : pairs)
+		if (left & pair.xr) {
+			usage |= pair.vulkan;
+			left &= ~pair.xr;
+		}
+	if (left) throw Error(XR_ERROR_FEATURE_UNSUPPORTED, "usageFlags has the bits {:#x} that are not supported", left);
+	return usage;
+}
+
+const XrGraphicsBindingVulkanKHR &requireBinding(const XrGraphicsBindingVulkanKHR &binding)
+{
+	if (!binding.instance || !binding.physicalDevice || !binding.device)
+		throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "the graphics binding has a null VkInstance, VkPhysicalDevice or VkDevice");
+	return binding;
+}
+
+/// A command buffer's fence.
+class FenceCompletion final : public Completion
+{
+public:
+	FenceCompletion(std::shared_ptr<FencePool> pool, VkFence fence) : pool_(std::move(pool)), fence_(fence) {}
+	~FenceCompletion() override { pool_->giveBack(fence_); }
+	bool wait(XrDuration limit) const override { return pool_->wait(fence_, limit); }
+
+private:
+	std::shared_ptr<FencePool> pool_;
+	VkFence fence_;
+};
+
+} // namespace
+
+FencePool::~FencePool()
+{
+	for (const VkFence fence : *idle_.lock()) {
+		wait(fence, second); // one that is still pending may not be destroyed
+		vulkan_.DestroyFence(device_, fence, nullptr);
+	}
+}
+
+VkFence FencePool::take()
+{
+	{
+		auto idle = idle_.lock();
+		const auto done = std::ranges::find_if(*idle, [&](VkFence fence) { return vulkan_.GetFenceStatus(device_, fence) == VK_SUCCESS; });
+		if (done != idle->end()) {
+			const VkFence fence = *done;
+			requireSuccess(vulkan_.ResetFences(device_, 1, &fence), "vkResetFences");
+			idle->erase(done);
+			return fence;
+		}
+	}
+	const VkFenceCreateInfo info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+	VkFence fence = VK_NULL_HANDLE;
+	requireSuccess(vulkan_.CreateFence(device_, &info, nullptr, &fence), "vkCreateFence");
+	return fence;
+}
+
+bool FencePool::wait(VkFence fence, XrDuration limit) const
+{
+	return vulkan_.WaitForFences(device_, 1, &fence, VK_TRUE, uint64_t(limit)) == VK_SUCCESS;
+}
+
+VulkanDevice::VulkanDevice(const VulkanInstanceApi &instanceApi, const XrGraphicsBindingVulkanKHR &binding)
+	: vulkan(instanceApi.GetDeviceProcAddr, binding.device), device(binding.device), queueFamily(binding.queueFamilyIndex)
+{
+	uint32_t familyCount = 0;
+	instanceApi.GetPhysicalDeviceQueueFamilyProperties(binding.physicalDevice, &familyCount, nullptr);
+	if (queueFamily >= familyCount)
+		throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "queue family {} is not below {}", queueFamily, familyCount);
+	vulkan.GetDeviceQueue(device, queueFamily, binding.queueIndex, &queue_);
+	if (!queue_) throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "the device has no queue {} of family {}", binding.queueIndex, queueFamily);
+	fences_ = std::make_shared<FencePool>(vulkan, device);
+}
+
+std::shared_ptr<Completion> VulkanDevice::submit(VkCommandBuffer commands)
+{
+	const VkFence fence = fences_->take();
+	const VkSubmitInfo info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
+	const VkResult result = vulkan.QueueSubmit(queue_, 1, &info, fence);
+	if (result != VK_SUCCESS) {
+		vulkan.DestroyFence(device, fence, nullptr);
+		requireSuccess(result, "vkQueueSubmit");
+	}
+	return std::make_shared<FenceCompletion>(fences_, fence);
+}
+
+VulkanGraphics::VulkanGraphics(const VulkanInstanceApi &instanceApi, const XrGraphicsBindingVulkanKHR &binding)
+	: instanceApi_(instanceApi),
+	  physicalDevice_(requireBinding(binding).physicalDevice),
+	  id_(identify(instanceApi_, physicalDevice_)),
+	  formats_(usableFormats(instanceApi_, physicalDevice_)),
+	  device_(instanceApi_, binding)
+{
+}
+
+gpu::ImageSpec VulkanGraphics::specOf(const XrSwapchainCreateInfo &info) const
+{
+	if (std::ranges::find(formats_, info.format) == formats_.end())
+		throw Error(XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED, "VkFormat {} is not one of xrEnumerateSwapchainFormats", info.format);
+	gpu::ImageSpec spec;
+	spec.format = int32_t(info.format);
+	spec.usage = usageOf(info.usageFlags);
+	if (info.usageFlags & XR_SWAPCHAIN_USAGE_MUTABLE_FORMAT_BIT) spec.createFlags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
+	if (info.faceCount == 6) spec.createFlags |= VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
+	spec.width = info.width;
+	spec.height = info.height;
+	spec.arrayLayers = info.arraySize * info.faceCount;
+	spec.mipLevels = info.mipCount;
+	spec.samples = info.sampleCount;
+	VkExternalMemoryImageCreateInfo external;
+	const VkImageCreateInfo create = gpu::imageCreateInfo(spec, external);
+	VkImageFormatProperties limits{};
+	const VkResult result = instanceApi_.GetPhysicalDeviceImageFormatProperties(physicalDevice_, create.format, create.imageType,
+																				create.tiling, create.usage, create.flags, &limits);
+	const bool fits = spec.width <= limits.maxExtent.width && spec.height <= limits.maxExtent.height &&
+					  spec.arrayLayers <= limits.maxArrayLayers && spec.mipLevels <= limits.maxMipLevels;
+	if (result != VK_SUCCESS || !fits)
+		throw Error(XR_ERROR_FEATURE_UNSUPPORTED, "the device has no image of VkFormat {}, usage {:#x}, {}x{}, {} layers, {} levels",
+					spec.format, create.usage, spec.width, spec.height, spec.arrayLayers, spec.mipLevels);
+	return spec;
+}
+
+std::unique_ptr<SwapchainImages> VulkanGraphics::import(const gpu::ImageSpec &spec, const SharedMemory &memory)
+{
+	return std::make_unique<VulkanImages>(device_, spec, memory);
+}
+
+} // namespace arift::openxr
