@@ -19,13 +19,15 @@ double directAngle(const OCam &camera, double radius) { return std::atan2(radius
 /// rho(theta) with theta = angle - pi/2. A polynomial that misses 0 on the axis by a rounding error is held at 0 there.
 ValueAndSlope inverseRadius(const OCam &camera, double angle) { return hornerWithSlope(camera.inverse, angle - halfPi); }
 
-/// The direct polynomial's extent: followed along the radius, where it is closed.
+/// The direct polynomial's extent: followed along the radius, where it is closed, in steps of about half a milliradian near the axis.
 Extent followRadius(const OCam &camera, Extent limit)
 {
-	const double step = limit.radius / 8192;
+	constexpr int longest = 1'000'000; ///< steps: 500 focal lengths
+	const double step = 5e-4 * -camera.direct[0];
 	Extent before{0, 0}, last{0, 0};
-	for (int i = 1; i <= 8192; ++i) {
-		const Extent next{directAngle(camera, i * step), i * step};
+	for (int i = 1; i < longest && last.radius < limit.radius; ++i) {
+		const double radius = std::min(i * step, limit.radius);
+		const Extent next{directAngle(camera, radius), radius};
 		if (!(next.angle > last.angle)) return before;
 		if (next.angle >= limit.angle) return next;
 		before = std::exchange(last, next);
