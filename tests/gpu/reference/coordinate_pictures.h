@@ -12,7 +12,7 @@ namespace arift::reference
 {
 
 enum class Content : uint32_t { column, row, white };
-constexpr std::array contents{Content::column, Content::row, Content::white};
+inline constexpr std::array contents{Content::column, Content::row, Content::white};
 
 /// 16-bit values, row by row: (column + 0.5) / width, (row + 0.5) / height, or 1, of full scale.
 std::vector<uint16_t> coordinateValues(Content content, uint32_t width, uint32_t height);

@@ -98,9 +98,11 @@ public:
 	{
 		return render(uint32_t(numbers_.cameras[0].width), uint32_t(numbers_.cameras[0].height), [&](Content content) {
 			PanelInputs all = inputs(now);
-			for (int eye = 0; eye < 2; ++eye)
-				all.cameras[size_t(eye)] = {
-					.frame = frames_[size_t(eye)][size_t(content)], .cameraInOrigin = toPose(now.camera(eye)), .lens = uint32_t(eye)};
+			for (size_t eye = 0; eye < 2; ++eye) {
+				CameraFrame frame = frames_[eye][size_t(content)];
+				frame.midExposure = all.displayTime + fromSeconds(now.exposure[eye]);
+				all.cameras[eye] = {.frame = frame, .cameraInOrigin = toPose(now.camera(int(eye))), .lens = uint32_t(eye)};
+			}
 			return all;
 		});
 	}
@@ -313,6 +315,6 @@ TEST_P(PanelAccuracy, ObliqueQuad)
 }
 
 INSTANTIATE_TEST_SUITE_P(Lenses, PanelAccuracy, testing::Values(LensChoice{"spline", true}, LensChoice{"polynomial", false}),
-						 [](const auto &info) { return std::string(info.param.name); });
+						 [](const auto &choice) { return std::string(choice.param.name); });
 
 } // namespace

@@ -1,0 +1,162 @@
+#include "tests/e2e/registration/measurement.h"
+#include "tests/gpu/reference/reference_camera.h"
+#include "tests/gpu/reference/reference_motion.h"
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+namespace arift::e2e
+{
+namespace
+{
+
+constexpr double degree = M_PI / 180;
+constexpr double angularRadius = 0.021; // of the red disc, tangent: eight panel pixels
+constexpr double settled = 1.5;         // seconds after which the head turns at its constant rate
+constexpr int limitSeconds = 120;       // real time, for one figure
+
+/// In every direction all around, some above and below the horizon; each faced by a head that turns about the neck at its distance.
+std::vector<Eigen::Vector3d> markerPlaces(double distance)
+{
+	std::vector<Eigen::Vector3d> places;
+	for (int i = 0; i < 15; ++i) {
+		constexpr std::array<double, 3> heights{0, 0.12, -0.12};
+		reference::ConstantTurn turn;
+		turn.rate = {0, 24 * i * degree, 0};
+		places.push_back(turn.head(1).out(Eigen::Vector3d(0, heights[size_t(i % 3)], -1) * distance));
+	}
+	return places;
+}
+
+std::string configuration(const Scenario &scenario)
+{
+	std::ostringstream text;
+	text << "[headset]\ndriver = \"synthetic\"\n[clock]\nmode = \"stepped\"\n[compositor]\ntarget = \"offscreen\"\n[synthetic]\n";
+	if (!scenario.motion.empty())
+		text << "motion = \"" << scenario.motion << "\"\n";
+	else if (scenario.degreesPerSecond == 0)
+		text << "motion = \"rest\"\n";
+	else
+		text << "motion = \"constant\"\nrate = [0.0, " << scenario.degreesPerSecond << ", 0.0]\n";
+	text << "motion_delay = 1.0\ntracker_noise = false\ntracker_quantisation = false\ngyro_bias = [0.0, 0.0, 0.0]\ncamera_noise = false\n"
+		 << "transfer_delay_ms = " << scenario.delayMs << "\n";
+	for (const Eigen::Vector3d &place : markerPlaces(scenario.distance))
+		text << "[[synthetic.markers]]\nposition = [" << place.x() << ", " << place.y() << ", " << place.z()
+			 << "]\nradius = " << scenario.distance * angularRadius << "\n";
+	return text.str();
+}
+
+// The head rests at the world's origin when LOCAL space is made there: world and LOCAL are one.
+std::vector<std::string> applicationArguments(const Scenario &scenario)
+{
+	std::vector<std::string> arguments{"--radius", std::to_string(scenario.distance * angularRadius)};
+	for (const Eigen::Vector3d &place : markerPlaces(scenario.distance)) {
+		arguments.push_back("--position");
+		for (int axis = 0; axis < 3; ++axis) arguments.push_back(std::to_string(place[axis]));
+	}
+	return arguments;
+}
+
+reference::Lens rigLens()
+{
+	const reference::RigNumbers rig = reference::readRigNumbers(ARIFT_SOURCE_DIR "/calib/rigs/arift.toml");
+	return rig.spline ? reference::Lens::spline(rig.eyeRelief) : reference::Lens::polynomial();
+}
+
+double quantile(std::vector<double> &values, double q)
+{
+	const auto at = values.begin() + std::ptrdiff_t(q * double(values.size() - 1) + 0.5);
+	std::nth_element(values.begin(), at, values.end());
+	return *at;
+}
+
+Figures figuresOf(const std::vector<Pair> &pairs)
+{
+	Figures figures;
+	std::vector<double> errors;
+	for (const Pair &pair : pairs) {
+		errors.push_back(pair.error.norm());
+		figures.mean += pair.error;
+	}
+	figures.samples = errors.size();
+	if (errors.empty()) return figures;
+	figures.mean /= double(errors.size());
+	figures.median = quantile(errors, 0.5);
+	figures.p99 = quantile(errors, 0.99);
+	figures.largest = quantile(errors, 1);
+	return figures;
+}
+
+/// A marker that the camera's fading border dims would be found beside its place: only those as bright as the brightest count.
+void dropFaded(std::vector<Pair> &pairs)
+{
+	double brightest = 0;
+	for (const Pair &pair : pairs) brightest = std::max(brightest, pair.real.peak);
+	std::erase_if(pairs, [&](const Pair &pair) { return pair.real.peak < 0.97 * brightest; });
+}
+
+} // namespace
+
+Measurement::Measurement(const Scenario &scenario)
+	: scenario_(scenario),
+	  lens_(rigLens()),
+	  service_(configuration(scenario)),
+	  application_(service_.start("pinned_marker", applicationArguments(scenario)))
+{
+}
+
+Figures Measurement::measure(const Setting &setting, size_t pictures)
+{
+	service_.set(ipc::Setting::viewOffset, float(setting.viewOffset));
+	service_.set(ipc::Setting::passthroughDistance, float(setting.passthroughDistance));
+	const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(limitSeconds);
+	std::vector<Pair> pairs;
+	size_t looked = 0, lonely = 0, tries = 0;
+	XrTime first = 0, newest = 0;
+	while (looked < pictures) {
+		if (!application_.running()) throw std::runtime_error("pinned_marker ended: " + application_.output());
+		if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("too few pictures with holograms in two minutes");
+		PanelPicture picture = service_.screenshot();
+		if (picture.displayTime == newest) continue;
+		newest = picture.displayTime;
+		// Until holograms are there, and a few frames after settings have changed, nothing counts; nor while the head speeds up.
+		const bool holograms = !findSpots(picture, lens_, 0, 2).empty() || !findSpots(picture, lens_, 1, 2).empty();
+		if (first == 0 && holograms) first = newest;
+		const double wait = last_.rgba.empty() ? settled + 1.0 : 0.15;
+		if (first == 0 || inSeconds(newest - first) < (scenario_.degreesPerSecond == 0 && scenario_.motion.empty() ? 0.3 : wait)) {
+			if (++tries > 5000) throw std::runtime_error("no hologram is in any picture");
+			continue;
+		}
+		look(picture, setting, pairs, lonely);
+		last_ = std::move(picture);
+		++looked;
+	}
+	dropFaded(pairs);
+	Figures figures = figuresOf(pairs);
+	figures.pictures = looked;
+	figures.lonely = lonely;
+	return figures;
+}
+
+void Measurement::look(const PanelPicture &picture, const Setting &setting, std::vector<Pair> &pairs, size_t &lonely) const
+{
+	for (int eye = 0; eye < 2; ++eye) {
+		const std::vector<Spot> holograms = findSpots(picture, lens_, eye, 2);
+		std::vector<Spot> real = findSpots(picture, lens_, eye, 0);
+		if (setting.withinTangent) std::erase_if(real, [&](const Spot &spot) { return spot.tangents.norm() > *setting.withinTangent; });
+		for (Pair &pair : pairSpots(lens_, eye, real, holograms, 0.2, lonely)) pairs.push_back(pair);
+	}
+}
+
+void Measurement::keepPicture(const std::filesystem::path &file) const
+{
+	std::ofstream out(file, std::ios::binary);
+	out << "P6\n" << last_.width << " " << last_.height << "\n255\n";
+	for (size_t i = 0; i < last_.rgba.size(); i += 4) out.write(reinterpret_cast<const char *>(&last_.rgba[i]), 3);
+}
+
+} // namespace arift::e2e
