@@ -134,8 +134,9 @@ void OrientationFilter::estimateBias(const glm::dvec3 &up, const LowPassCoeffici
 	const double clip = biasClip();
 	for (int row = 0; row < 2; ++row) errors[row] = std::clamp(errors[row], -clip, clip);
 	if (starting) s.biasError = {};
-	s.persistentError =
-		std::hypot(s.biasError.step(0, errors[0], coefficients_.biasError), s.biasError.step(1, errors[1], coefficients_.biasError));
+	const double level[2] = {s.biasError.step(0, errors[0], coefficients_.biasError),
+							 s.biasError.step(1, errors[1], coefficients_.biasError)};
+	s.persistentError = std::sqrt(level[0] * level[0] + level[1] * level[1]);
 	const glm::dvec3 before = s.bias;
 	for (int i = 0; i < 3; ++i)
 		s.biasCovariance[i][i] = std::min(s.biasCovariance[i][i] + coefficients_.biasNoise, coefficients_.biasInitial);
@@ -162,9 +163,9 @@ void OrientationFilter::estimateBias(const glm::dvec3 &up, const LowPassCoeffici
 void OrientationFilter::observeBias(const glm::dvec3 &direction, double error, double variance)
 {
 	const glm::dvec3 shared = state_.biasCovariance * direction;
-	const double total = glm::dot(direction, shared) + variance;
-	state_.bias += shared * (error / total);
-	state_.biasCovariance -= glm::outerProduct(shared, shared / total);
+	const double inverse = 1 / (glm::dot(direction, shared) + variance);
+	state_.bias += shared * (error * inverse);
+	state_.biasCovariance -= glm::outerProduct(shared, shared * inverse);
 }
 
 } // namespace arift

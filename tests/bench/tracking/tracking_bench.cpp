@@ -10,10 +10,16 @@ namespace
 void filterSample(benchmark::State &state)
 {
 	OrientationFilter filter(1e-3);
-	double t = 0;
+	std::array<glm::dvec3, 1024> rates, accelerations;
+	for (size_t i = 0; i < rates.size(); ++i) {
+		const double phase = 2 * M_PI * double(i) / double(rates.size());
+		rates[i] = {0.5 * std::sin(phase), 0.3, -0.2};
+		accelerations[i] = {0.3, 9.7 + 0.01 * std::sin(7 * phase), 0.1};
+	}
+	size_t i = 0;
 	for (auto _ : state) {
-		t += 1e-3;
-		filter.update({0.5 * std::sin(t), 0.3, -0.2}, {0.3, 9.7 + 0.01 * std::sin(7 * t), 0.1}, 1e-3);
+		filter.update(rates[i % rates.size()], accelerations[i % rates.size()], 1e-3);
+		++i;
 		benchmark::DoNotOptimize(filter);
 	}
 }

@@ -136,8 +136,8 @@ TEST_F(HeadTrackerTest, AnAveragedBacklogCountsForItsWholeInterval)
 	make();
 	const Rate rate = [](double) { return XrVector3f{0, 1.5f, 0}; };
 	run(1, rate);
-	const ImuSample averaged = turn(rate, 18), second = turn(rate), third = turn(rate); // 20 ticks in a report that holds three
-	tracker->add({.arrival = now(), .samples = {averaged, second, third}, .sampleCount = 3});
+	const ImuSample averaged = turn(rate, 18), next = turn(rate), newest = turn(rate); // 20 ticks in a report that holds three
+	tracker->add({.arrival = now(), .samples = {averaged, next, newest}, .sampleCount = 3});
 	run(0.1, rate);
 	EXPECT_LT(errorNow(), 0.01);
 }
