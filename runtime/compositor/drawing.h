@@ -1,0 +1,32 @@
+// The whole drawing of one image as data: what is drawn where, with which pipeline and which numbers. Pure.
+#pragma once
+#include "runtime/compositor/blocks.h"
+#include "runtime/compositor/pipelines.h"
+
+namespace arift
+{
+
+/// Layers above this many are not drawn.
+constexpr size_t maxDrawnLayers = 64;
+
+struct DrawItem {
+	PipelineKey pipeline;
+	uint32_t eye = 0;
+	uint32_t eyeBlock = 0;   ///< index into Drawing::eyeBlocks
+	uint32_t layerBlock = 0; ///< index into Drawing::layerBlocks, where the pipeline has a layer
+	uint64_t image = 0;      ///< the layer's
+	uint32_t firstVertex = 0, vertexCount = 0;
+};
+
+struct Drawing {
+	std::vector<DrawItem> items;
+	std::vector<std::array<int16_t, 2>> vertices; ///< triangles, pixels
+	std::vector<shaders::EyeBlock> eyeBlocks;
+	std::vector<shaders::LayerBlock> layerBlocks;
+};
+
+/// `specOf`: what an image is; null for one that cannot be sampled. Layers whose image or rectangle is not there are left out.
+Drawing makeDrawing(const PanelInputs &inputs, const PanelOptics &optics, const ViewGeometry &geometry,
+					const std::array<TileGrid, 2> &grids, const std::function<const gpu::ImageSpec *(uint64_t)> &specOf);
+
+} // namespace arift

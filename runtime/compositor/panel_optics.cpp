@@ -1,0 +1,114 @@
+#include "runtime/compositor/panel_optics.h"
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace arift
+{
+
+namespace
+{
+
+double angleBetween(const CameraModel &model, glm::dvec2 a, glm::dvec2 b)
+{
+	const auto first = model.unproject(a), second = model.unproject(b);
+	return first && second ? std::atan2(glm::length(glm::cross(*first, *second)), glm::dot(*first, *second)) : 0;
+}
+
+PanelCamera describe(const CameraModel &model)
+{
+	// The middle of the image's longer edge stands for its border; a lens that does not reach it fades by its angle anyway.
+	const double x = model.width() - 1.0, y = (model.height() - 1.0) / 2, step = 8;
+	const double atEdge = angleBetween(model, {x, y}, {x - step, y});
+	const double atCentre = angleBetween(model, {x / 2, y}, {x / 2 + step, y});
+	const double angle = atEdge > 0 ? atEdge : atCentre;
+	return {fitForShader(model), model.width(), model.height(), model.maxAngle(), angle > 0 ? step / angle : double(model.width())};
+}
+
+float gainAt(const PanelCamera &camera, double angle)
+{
+	const ShaderCamera &form = camera.form;
+	if (form.coefficients == 0) {
+		const double at = angle / camera.maxAngle * double(form.table.size() - 1);
+		const size_t index = std::min(size_t(at), form.table.size() - 2);
+		return float(glm::mix(double(form.table[index]), double(form.table[index + 1]), at - double(index)));
+	}
+	const double x = (std::cos(angle) - double(form.cosineCentre)) * double(form.cosineScale);
+	double g = 0;
+	for (uint32_t i = form.coefficients; i-- > 0;) g = g * x + double(form.g[i]);
+	return float(g);
+}
+
+/// One camera without a polynomial makes tables of all: there is one shader for both.
+void useTables(std::vector<PanelCamera> &cameras, uint32_t size)
+{
+	for (PanelCamera &camera : cameras) {
+		if (camera.form.coefficients == 0 && camera.form.table.size() == size) continue;
+		std::vector<float> table(size);
+		for (uint32_t i = 0; i < size; ++i) table[i] = gainAt(camera, camera.maxAngle * i / (size - 1));
+		camera.form.table = std::move(table);
+		camera.form.coefficients = 0;
+	}
+}
+
+} // namespace
+
+PanelOptics::PanelOptics(const Rig &rig)
+	: lens(rig.lens), shaderLens(fitForShader(rig.lens)), interpupillaryDistance(rig.interpupillaryDistance)
+{
+	const auto blue = lens.chromatic(Channel::blue);
+	redItself = blue[1] != 0 || std::abs(blue[0] - 1) < 1e-6;
+	for (const RigCamera &camera : rig.cameras) cameras.push_back(describe(camera.model));
+	bool table = false;
+	for (const PanelCamera &camera : cameras) {
+		table |= camera.form.coefficients == 0;
+		cameraCoefficients = std::max(cameraCoefficients, camera.form.coefficients);
+		tableSize = std::max(tableSize, uint32_t(camera.form.table.size()));
+		tangential |= camera.form.tangential[0] != 0 || camera.form.tangential[1] != 0;
+	}
+	if (table) {
+		cameraCoefficients = 0;
+		useTables(cameras, tableSize);
+	}
+	if (cameras.empty()) cameraCoefficients = 1;
+}
+
+ViewGeometry panelGeometry(const PanelOptics &optics)
+{
+	const PanelGeometry &panel = optics.lens.panel();
+	const double perPixel = 1 / optics.lens.pixelsPerTangent();
+	const int half = int(panel.width) / 2, height = int(panel.height);
+	ViewGeometry geometry{.throughLens = true, .width = panel.width, .height = panel.height};
+	for (int e = 0; e < 2; ++e)
+		geometry.eyes[size_t(e)] = {.area = {e * half, 0, (e + 1) * half, height},
+									.axis = optics.lens.centre(Eye(e)),
+									.perPixel = {perPixel, -perPixel},
+									.radius = std::sqrt(optics.lens.maxR2()) / perPixel + rimPixels};
+	return geometry;
+}
+
+ViewGeometry eyesGeometry(const PanelOptics &optics)
+{
+	const uint32_t width = optics.lens.panel().width / 2;
+	ViewGeometry geometry{.throughLens = false, .width = 2 * width};
+	for (int e = 0; e < 2; ++e) {
+		const auto fov = optics.lens.fov(Eye(e), optics.interpupillaryDistance);
+		const double perPixel = (fov.left + fov.right) / width;
+		geometry.height = uint32_t(std::lround((fov.up + fov.down) / perPixel));
+		geometry.eyes[size_t(e)] = {.area = {e * int(width), 0, (e + 1) * int(width), int(geometry.height)},
+									.axis = {e * double(width) + fov.left / perPixel, fov.up / perPixel},
+									.perPixel = {perPixel, -perPixel}};
+	}
+	return geometry;
+}
+
+TileGrid makeGrid(const PanelOptics &optics, const ViewGeometry &geometry, size_t eye)
+{
+	const ViewGeometry::Eye view = geometry.eyes[eye];
+	return TileGrid(view.area, view.axis, view.radius, [&](glm::dvec2 pixel) {
+		const glm::dvec2 v = (pixel - view.axis) * view.perPixel;
+		return geometry.throughLens ? v * optics.lens.scale(std::min(glm::dot(v, v), optics.lens.maxR2())) : v;
+	});
+}
+
+} // namespace arift

@@ -1,0 +1,306 @@
+#include "runtime/compositor/panel_renderer.h"
+#include "runtime/base/clock.h"
+#include "runtime/compositor/camera_images.h"
+#include "runtime/compositor/drawing.h"
+#include "runtime/compositor/layer_images.h"
+#include <cstring>
+
+namespace arift
+{
+
+namespace
+{
+
+using Layout = vk::ImageLayout;
+using Type = vk::DescriptorType;
+using Usage = vk::ImageUsageFlagBits;
+
+constexpr vk::ImageSubresourceRange whole{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
+
+/// An image that is drawn, with what is needed to plan its drawing.
+struct Canvas {
+	Canvas(const gpu::Device::Handles &gpu, const PanelOptics &optics, ViewGeometry view_, vk::Format format, vk::RenderPass renderPass)
+		: geometry(view_),
+		  grids{makeGrid(optics, geometry, 0), makeGrid(optics, geometry, 1)},
+		  image(gpu, {{},
+					  vk::ImageType::e2D,
+					  format,
+					  {geometry.width, geometry.height, 1},
+					  1,
+					  1,
+					  vk::SampleCountFlagBits::e1,
+					  vk::ImageTiling::eOptimal,
+					  Usage::eColorAttachment | Usage::eTransferSrc}),
+		  view(gpu.device, {{}, *image.image, vk::ImageViewType::e2D, format, {}, whole}),
+		  framebuffer(gpu.device, {{}, renderPass, *view, geometry.width, geometry.height, 1})
+	{
+	}
+	ViewGeometry geometry;
+	std::array<TileGrid, 2> grids;
+	gpu::Image image;
+	vk::raii::ImageView view;
+	vk::raii::Framebuffer framebuffer;
+	vk::Extent2D extent() const { return {geometry.width, geometry.height}; }
+};
+
+/// Blocks of one kind in a uniform buffer, each at an offset the device allows.
+template <typename Block> class BlockBuffer
+{
+public:
+	BlockBuffer(const gpu::Device::Handles &gpu, size_t capacity)
+		: stride_(aligned(sizeof(Block), gpu.physical.getProperties().limits.minUniformBufferOffsetAlignment)),
+		  buffer_(gpu, stride_ * capacity, vk::BufferUsageFlagBits::eUniformBuffer)
+	{
+	}
+	void write(std::span<const Block> blocks)
+	{
+		for (size_t i = 0; i < blocks.size(); ++i) std::memcpy(buffer_.bytes.data() + i * stride_, &blocks[i], sizeof(Block));
+	}
+	uint32_t offset(uint32_t index) const { return uint32_t(index * stride_); }
+	vk::Buffer buffer() const { return *buffer_.buffer; }
+
+private:
+	static size_t aligned(size_t size, size_t alignment) { return (size + alignment - 1) / alignment * alignment; }
+	size_t stride_;
+	gpu::Buffer buffer_;
+};
+
+vk::raii::Sampler makeSampler(const gpu::Device::Handles &gpu)
+{
+	using Address = vk::SamplerAddressMode;
+	return {gpu.device,
+			{{},
+			 vk::Filter::eLinear,
+			 vk::Filter::eLinear,
+			 vk::SamplerMipmapMode::eNearest,
+			 Address::eClampToEdge,
+			 Address::eClampToEdge,
+			 Address::eClampToEdge}};
+}
+
+vk::raii::DescriptorPool makePool(const gpu::Device::Handles &gpu)
+{
+	const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBufferDynamic, 3}, vk::DescriptorPoolSize{Type::eCombinedImageSampler, 7}};
+	return {gpu.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 3, sizes}};
+}
+
+std::vector<vk::raii::DescriptorSet> makeSets(const gpu::Device::Handles &gpu, const vk::raii::DescriptorPool &pool,
+											  const Pipelines &pipelines)
+{
+	const std::array layouts{pipelines.eyeSetLayout(), pipelines.eyeSetLayout()};
+	vk::raii::DescriptorSets sets(gpu.device, {*pool, layouts});
+	return {std::make_move_iterator(sets.begin()), std::make_move_iterator(sets.end())};
+}
+
+/// A layer image that is never drawn: something must be bound.
+constexpr uint64_t noImage = UINT64_MAX;
+
+gpu::ImageSpec oneTexel()
+{
+	return {.format = VK_FORMAT_R8G8B8A8_UNORM, .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT, .width = 1, .height = 1};
+}
+
+} // namespace
+
+struct PanelRenderer::Implementation {
+	Implementation(gpu::Device &device, const Rig &rig, VkFormat panelFormat);
+
+	void draw(Canvas &canvas, const PanelInputs &inputs);
+	void record(Canvas &canvas, const PanelInputs &inputs, const Drawing &drawing);
+	void drawItems(const Drawing &drawing) const;
+	void uploadCameras(const PanelInputs &inputs);
+	void bindPlanes(size_t eye);
+	std::vector<const LayerImages::Entry *> imagesOf(const Drawing &drawing) const;
+	void writeVertices(const Drawing &drawing);
+	ReadbackImage read(const Canvas &canvas);
+
+	gpu::Device::Handles &gpu;
+	PanelOptics optics;
+	VkFormat format;
+	Pipelines pipelines;
+	Canvas panel, eyes;
+	vk::raii::Sampler sampler;
+	BlockBuffer<shaders::EyeBlock> eyeBlocks;
+	BlockBuffer<shaders::LayerBlock> layerBlocks;
+	std::optional<gpu::Buffer> vertices;
+	CameraImages cameraImages;
+	std::array<Texture, 2> angleTables;
+	gpu::SharedImage noLayer;
+	LayerImages layerImages;
+	vk::raii::DescriptorPool pool;
+	std::vector<vk::raii::DescriptorSet> eyeSets;
+	std::array<uint32_t, 2> lensOf{0, 1}; ///< whose angle table each eye's set holds
+	vk::raii::CommandPool commandPool;
+	vk::raii::CommandBuffers commandBuffers;
+	vk::raii::Fence fence;
+	Cost cost;
+
+	const vk::raii::CommandBuffer &commands() const { return commandBuffers.front(); }
+};
+
+PanelRenderer::Implementation::Implementation(gpu::Device &device, const Rig &rig, VkFormat panelFormat)
+	: gpu(device.handles()),
+	  optics(rig),
+	  format(panelFormat),
+	  pipelines(gpu, vk::Format(format), optics),
+	  panel(gpu, optics, panelGeometry(optics), vk::Format(format), pipelines.renderPass()),
+	  eyes(gpu, optics, eyesGeometry(optics), vk::Format(format), pipelines.renderPass()),
+	  sampler(makeSampler(gpu)),
+	  eyeBlocks(gpu, 2 * bandCount),
+	  layerBlocks(gpu, 2 * bandCount * maxDrawnLayers),
+	  cameraImages(gpu),
+	  angleTables{makeAngleTable(gpu, optics, 0), makeAngleTable(gpu, optics, 1)},
+	  noLayer(device, oneTexel()),
+	  layerImages(gpu, pipelines.layerSetLayout(), *sampler, layerBlocks.buffer()),
+	  pool(makePool(gpu)),
+	  eyeSets(makeSets(gpu, pool, pipelines)),
+	  commandPool(gpu.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, gpu.queueFamily}),
+	  commandBuffers(gpu.device, {*commandPool, vk::CommandBufferLevel::ePrimary, 1}),
+	  fence(gpu.device, vk::FenceCreateInfo{})
+{
+	layerImages.add(noImage, noLayer.image(), noLayer.spec());
+	gpu.runOnce([&](const auto &setUp) { layerImages.acquire(setUp, std::array{layerImages.find(noImage)}); });
+	for (size_t eye = 0; eye < 2; ++eye) bindPlanes(eye);
+}
+
+/// Nothing is drawing: every draw is waited for.
+void PanelRenderer::Implementation::bindPlanes(size_t eye)
+{
+	const auto planes = cameraImages.planes(eye);
+	const vk::DescriptorBufferInfo block{eyeBlocks.buffer(), 0, sizeof(shaders::EyeBlock)};
+	std::array<vk::DescriptorImageInfo, 3> images;
+	images[0] = {*sampler, planes[0], Layout::eShaderReadOnlyOptimal};
+	images[1] = {*sampler, planes[1], Layout::eShaderReadOnlyOptimal};
+	images[2] = {*sampler, *angleTables[lensOf[eye]].view, Layout::eShaderReadOnlyOptimal};
+	const vk::DescriptorSet set = *eyeSets[eye];
+	gpu.device.updateDescriptorSets({vk::WriteDescriptorSet{set, 0, 0, Type::eUniformBufferDynamic, {}, block},
+									 vk::WriteDescriptorSet{set, 1, 0, Type::eCombinedImageSampler, images}},
+									{});
+}
+
+void PanelRenderer::Implementation::uploadCameras(const PanelInputs &inputs)
+{
+	for (size_t eye = 0; eye < 2; ++eye) {
+		const CameraView *camera = cameraOf(inputs, optics, eye);
+		if (!camera) continue;
+		const uint32_t lens = std::min(camera->lens, 1u);
+		const bool otherTable = lensOf[eye] != lens;
+		lensOf[eye] = lens;
+		if (cameraImages.upload(commands(), eye, camera->frame) || otherTable) bindPlanes(eye);
+	}
+}
+
+std::vector<const LayerImages::Entry *> PanelRenderer::Implementation::imagesOf(const Drawing &drawing) const
+{
+	std::vector<const LayerImages::Entry *> entries;
+	for (const DrawItem &item : drawing.items) {
+		if (!item.pipeline.layer) continue;
+		const LayerImages::Entry *entry = layerImages.find(item.image);
+		if (std::find(entries.begin(), entries.end(), entry) == entries.end()) entries.push_back(entry);
+	}
+	return entries;
+}
+
+void PanelRenderer::Implementation::writeVertices(const Drawing &drawing)
+{
+	const auto bytes = std::as_bytes(std::span(drawing.vertices));
+	if (!vertices || vertices->bytes.size() < bytes.size())
+		vertices.emplace(gpu, std::max<size_t>(2 * bytes.size(), 1 << 16), vk::BufferUsageFlagBits::eVertexBuffer);
+	if (!bytes.empty()) std::memcpy(vertices->bytes.data(), bytes.data(), bytes.size());
+}
+
+void PanelRenderer::Implementation::drawItems(const Drawing &drawing) const
+{
+	const LayerImages::Entry *none = layerImages.find(noImage);
+	commands().bindVertexBuffers(0, *vertices->buffer, vk::DeviceSize(0));
+	for (const DrawItem &item : drawing.items) {
+		const LayerImages::Entry *layer = item.pipeline.layer ? layerImages.find(item.image) : none;
+		commands().bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines.at(item.pipeline));
+		commands().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0, {*eyeSets[item.eye], *layer->set},
+									  {eyeBlocks.offset(item.eyeBlock), layerBlocks.offset(item.layerBlock)});
+		commands().draw(item.vertexCount, 1, item.firstVertex, 0);
+	}
+}
+
+void PanelRenderer::Implementation::record(Canvas &canvas, const PanelInputs &inputs, const Drawing &drawing)
+{
+	eyeBlocks.write(drawing.eyeBlocks);
+	layerBlocks.write(drawing.layerBlocks);
+	writeVertices(drawing);
+	const auto entries = imagesOf(drawing);
+	const vk::Extent2D extent = canvas.extent();
+	const vk::ClearValue black{vk::ClearColorValue(std::array{0.0f, 0.0f, 0.0f, 1.0f})};
+	commands().begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+	uploadCameras(inputs);
+	layerImages.acquire(commands(), entries);
+	commands().beginRenderPass({pipelines.renderPass(), *canvas.framebuffer, {{}, extent}, black}, vk::SubpassContents::eInline);
+	commands().setViewport(0, vk::Viewport{0, 0, float(extent.width), float(extent.height), 0, 1});
+	commands().setScissor(0, vk::Rect2D{{}, extent});
+	commands().pushConstants<float>(pipelines.layout(), vk::ShaderStageFlagBits::eVertex, 0,
+									{2.0f / float(extent.width), 2.0f / float(extent.height)});
+	drawItems(drawing);
+	commands().endRenderPass();
+	layerImages.release(commands(), entries);
+	commands().end();
+}
+
+void PanelRenderer::Implementation::draw(Canvas &canvas, const PanelInputs &inputs)
+{
+	const XrTime begin = realTime();
+	const auto specOf = [&](uint64_t key) {
+		const LayerImages::Entry *entry = layerImages.find(key);
+		return entry ? &entry->spec : nullptr;
+	};
+	record(canvas, inputs, makeDrawing(inputs, optics, canvas.geometry, canvas.grids, specOf));
+	const XrTime recorded = realTime();
+	gpu.submitAndWait(commands(), fence);
+	cost = {inSeconds(recorded - begin), inSeconds(realTime() - recorded)};
+}
+
+ReadbackImage PanelRenderer::Implementation::read(const Canvas &canvas)
+{
+	const size_t texel = format == VK_FORMAT_R16G16B16A16_UNORM ? 8 : 4;
+	const vk::Extent2D extent = canvas.extent();
+	const gpu::Buffer buffer(gpu, texel * extent.width * extent.height, vk::BufferUsageFlagBits::eTransferDst);
+	const vk::BufferImageCopy all{0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {extent.width, extent.height, 1}};
+	gpu.runOnce([&](const vk::raii::CommandBuffer &copying) {
+		copying.copyImageToBuffer(*canvas.image.image, Layout::eTransferSrcOptimal, *buffer.buffer, all);
+		const vk::MemoryBarrier toHost{vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eHostRead};
+		copying.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {}, toHost, {}, {});
+	});
+	return {extent.width, extent.height, format, {buffer.bytes.begin(), buffer.bytes.end()}};
+}
+
+PanelRenderer::PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat format)
+	: implementation_(std::make_unique<Implementation>(device, rig, format))
+{
+}
+
+PanelRenderer::~PanelRenderer() = default;
+
+FrameAllocator PanelRenderer::frameAllocator() { return CameraImages::allocator(implementation_->gpu); }
+
+void PanelRenderer::addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec)
+{
+	implementation_->layerImages.add(key, image, spec);
+}
+
+void PanelRenderer::removeImage(uint64_t key) { implementation_->layerImages.remove(key); }
+
+void PanelRenderer::render(const PanelInputs &inputs) { implementation_->draw(implementation_->panel, inputs); }
+
+PanelRenderer::Cost PanelRenderer::cost() const { return implementation_->cost; }
+
+VkImage PanelRenderer::image() const { return *implementation_->panel.image.image; }
+
+VkExtent2D PanelRenderer::extent() const { return implementation_->panel.extent(); }
+
+ReadbackImage PanelRenderer::readPanel() { return implementation_->read(implementation_->panel); }
+
+ReadbackImage PanelRenderer::renderEyes(const PanelInputs &inputs)
+{
+	implementation_->draw(implementation_->eyes, inputs);
+	return implementation_->read(implementation_->eyes);
+}
+
+} // namespace arift

@@ -1,0 +1,148 @@
+#include "runtime/compositor/pipelines.h"
+#include "shaders/panel.frag.h"
+#include "shaders/panel.vert.h"
+#include <array>
+
+namespace arift
+{
+
+namespace
+{
+
+using Access = vk::AccessFlagBits;
+using Layout = vk::ImageLayout;
+using Stage = vk::PipelineStageFlagBits;
+using Type = vk::DescriptorType;
+
+vk::raii::RenderPass makeRenderPass(const gpu::Device::Handles &gpu, vk::Format format)
+{
+	const vk::AttachmentDescription colour{{},
+										   format,
+										   vk::SampleCountFlagBits::e1,
+										   vk::AttachmentLoadOp::eClear,
+										   vk::AttachmentStoreOp::eStore,
+										   vk::AttachmentLoadOp::eDontCare,
+										   vk::AttachmentStoreOp::eDontCare,
+										   Layout::eUndefined,
+										   Layout::eTransferSrcOptimal};
+	const vk::AttachmentReference reference{0, Layout::eColorAttachmentOptimal};
+	const vk::SubpassDescription subpass{{}, vk::PipelineBindPoint::eGraphics, {}, reference};
+	// The image is copied from before and after it is drawn.
+	const auto drawn = Access::eColorAttachmentWrite | Access::eColorAttachmentRead;
+	const std::array dependencies{
+		vk::SubpassDependency{VK_SUBPASS_EXTERNAL, 0, Stage::eTransfer, Stage::eColorAttachmentOutput, Access::eTransferRead, drawn},
+		vk::SubpassDependency{0, VK_SUBPASS_EXTERNAL, Stage::eColorAttachmentOutput, Stage::eTransfer, Access::eColorAttachmentWrite,
+							  Access::eTransferRead}};
+	return {gpu.device, vk::RenderPassCreateInfo{{}, colour, subpass, dependencies}};
+}
+
+template <size_t count> vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device::Handles &gpu, std::array<Type, count> types)
+{
+	std::array<vk::DescriptorSetLayoutBinding, count> bindings;
+	for (uint32_t i = 0; i < count; ++i) bindings[i] = {i, types[i], 1, vk::ShaderStageFlagBits::eFragment};
+	return {gpu.device, {{}, bindings}};
+}
+
+vk::raii::PipelineLayout makeLayout(const gpu::Device::Handles &gpu, vk::DescriptorSetLayout eye, vk::DescriptorSetLayout layer)
+{
+	const std::array sets{eye, layer};
+	const vk::PushConstantRange extent{vk::ShaderStageFlagBits::eVertex, 0, 2 * sizeof(float)};
+	return {gpu.device, {{}, sets, extent}};
+}
+
+/// In the order of the shader's constant ids.
+struct Constants {
+	int32_t distortionCoefficients, cameraCoefficients;
+	VkBool32 tangential;
+	int32_t background;
+	VkBool32 encoded, layer, throughLens, redItself;
+};
+
+Constants constantsFor(const PanelOptics &optics, const PipelineKey &key)
+{
+	return {int32_t(optics.shaderLens.coefficients),
+			int32_t(optics.cameraCoefficients),
+			optics.tangential,
+			int32_t(key.background),
+			key.encoded,
+			key.layer,
+			key.throughLens,
+			optics.redItself};
+}
+
+vk::PipelineColorBlendAttachmentState blendState(Blend blend)
+{
+	using Component = vk::ColorComponentFlagBits;
+	using Factor = vk::BlendFactor;
+	const auto all = Component::eR | Component::eG | Component::eB | Component::eA;
+	// Every colour has an alpha of its own: the second output of the shader.
+	const Factor kept = blend == Blend::over ? Factor::eOneMinusSrc1Color : Factor::eOne;
+	return {blend != Blend::replace, Factor::eOne, kept, vk::BlendOp::eAdd, Factor::eZero, Factor::eOne, vk::BlendOp::eAdd, all};
+}
+
+struct Factory {
+	const gpu::Device::Handles &gpu;
+	const PanelOptics &optics;
+	vk::PipelineLayout layout;
+	vk::RenderPass renderPass;
+	vk::raii::ShaderModule vertex{gpu.device, vk::ShaderModuleCreateInfo{{}, sizeof(panelVertexShader), panelVertexShader}};
+	vk::raii::ShaderModule fragment{gpu.device, vk::ShaderModuleCreateInfo{{}, sizeof(panelFragmentShader), panelFragmentShader}};
+	vk::raii::PipelineCache cache{gpu.device, vk::PipelineCacheCreateInfo{}};
+
+	vk::raii::Pipeline make(const PipelineKey &key) const
+	{
+		const Constants constants = constantsFor(optics, key);
+		std::array<vk::SpecializationMapEntry, sizeof(Constants) / 4> entries;
+		for (uint32_t i = 0; i < entries.size(); ++i) entries[i] = vk::SpecializationMapEntry{i, 4 * i, 4};
+		const vk::SpecializationInfo specialization{uint32_t(entries.size()), entries.data(), sizeof(Constants), &constants};
+		const std::array stages{
+			vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"},
+			vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", &specialization}};
+		const vk::VertexInputBindingDescription binding{0, 2 * sizeof(int16_t)};
+		const vk::VertexInputAttributeDescription attribute{0, 0, vk::Format::eR16G16Sint, 0};
+		const vk::PipelineVertexInputStateCreateInfo input{{}, binding, attribute};
+		const vk::PipelineInputAssemblyStateCreateInfo assembly{{}, vk::PrimitiveTopology::eTriangleList};
+		const vk::PipelineViewportStateCreateInfo viewport{{}, 1, nullptr, 1, nullptr};
+		const vk::PipelineRasterizationStateCreateInfo raster{
+			{}, false, false, vk::PolygonMode::eFill, vk::CullModeFlagBits::eNone, vk::FrontFace::eClockwise, false, 0, 0, 0, 1};
+		const vk::PipelineMultisampleStateCreateInfo samples;
+		const auto attachment = blendState(key.blend);
+		const vk::PipelineColorBlendStateCreateInfo blending{{}, false, {}, attachment};
+		const std::array dynamics{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
+		const vk::PipelineDynamicStateCreateInfo dynamic{{}, dynamics};
+		return {gpu.device,
+				cache,
+				{{}, stages, &input, &assembly, nullptr, &viewport, &raster, &samples, nullptr, &blending, &dynamic, layout, renderPass}};
+	}
+};
+
+/// Every combination TileDraw and the cameras' formats can ask for.
+std::vector<PipelineKey> everyKey()
+{
+	std::vector<PipelineKey> keys;
+	for (const bool throughLens : {true, false}) {
+		for (const Background background : {Background::none, Background::pattern, Background::grey, Background::bayer})
+			for (const bool encoded : {false, true}) {
+				if (encoded && background != Background::grey && background != Background::bayer) continue;
+				for (const bool layer : {false, true}) keys.push_back({Blend::replace, background, encoded, layer, throughLens});
+				if (background != Background::none) keys.push_back({Blend::add, background, encoded, false, throughLens});
+			}
+		keys.push_back({Blend::over, Background::none, false, true, throughLens});
+	}
+	return keys;
+}
+
+} // namespace
+
+Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const PanelOptics &optics)
+	: renderPass_(makeRenderPass(gpu, format)),
+	  eyeSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBufferDynamic, Type::eCombinedImageSampler, Type::eCombinedImageSampler,
+												  Type::eCombinedImageSampler})),
+	  layerSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBufferDynamic, Type::eCombinedImageSampler})),
+	  layout_(makeLayout(gpu, *eyeSetLayout_, *layerSetLayout_))
+{
+	const Factory factory{gpu, optics, *layout_, *renderPass_};
+	for (const PipelineKey &key : everyKey()) pipelines_.emplace(key, factory.make(key));
+}
+
+} // namespace arift

@@ -1,0 +1,42 @@
+// Every pipeline the renderer can need, made before the first frame.
+#pragma once
+#include "runtime/compositor/panel_optics.h"
+#include "runtime/gpu/handles.h"
+#include <compare>
+#include <map>
+
+namespace arift
+{
+
+/// The shader's `background` constant.
+enum class Background : uint32_t { none, pattern, grey, bayer };
+
+struct PipelineKey {
+	Blend blend = Blend::replace;
+	Background background = Background::none;
+	bool encoded = false; ///< the camera's values are sRGB encoded
+	bool layer = false;
+	bool throughLens = true;
+	auto operator<=>(const PipelineKey &) const = default;
+};
+
+class Pipelines
+{
+public:
+	Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const PanelOptics &optics);
+
+	vk::RenderPass renderPass() const { return *renderPass_; }
+	vk::PipelineLayout layout() const { return *layout_; }
+	/// Set 0: eye block, camera planes, angle table. Set 1: layer block, layer image.
+	vk::DescriptorSetLayout eyeSetLayout() const { return *eyeSetLayout_; }
+	vk::DescriptorSetLayout layerSetLayout() const { return *layerSetLayout_; }
+	vk::Pipeline at(const PipelineKey &key) const { return *pipelines_.at(key); }
+
+private:
+	vk::raii::RenderPass renderPass_;
+	vk::raii::DescriptorSetLayout eyeSetLayout_, layerSetLayout_;
+	vk::raii::PipelineLayout layout_;
+	std::map<PipelineKey, vk::raii::Pipeline> pipelines_;
+};
+
+} // namespace arift

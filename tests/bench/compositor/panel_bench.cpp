@@ -1,0 +1,126 @@
+// Cost of PanelRenderer::render by what there is to draw: original rig, raw Bayer of 752x480, layers of 1122x1553 per eye in sRGB.
+#include "runtime/compositor/panel_renderer.h"
+#include "runtime/gpu/device.h"
+#include "runtime/optics/rig.h"
+#include <benchmark/benchmark.h>
+#include <cmath>
+
+namespace arift
+{
+namespace
+{
+
+constexpr uint32_t viewWidth = 1122, viewHeight = 1553;
+
+struct Scene {
+	Scene() : rig(readRig(ARIFT_RIG)), renderer(device, rig)
+	{
+		const gpu::ImageSpec spec{.format = VK_FORMAT_R8G8B8A8_SRGB,
+								  .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+								  .width = viewWidth,
+								  .height = viewHeight,
+								  .arrayLayers = 2};
+		views.emplace(device, spec);
+		renderer.addImage(1, views->image(), spec);
+		for (size_t e = 0; e < 2; ++e) {
+			const CameraModel &model = rig.cameras[e].model;
+			CameraFrame frame{.sequence = 1,
+							  .format = PixelFormat::bayerRggb8,
+							  .width = model.width(),
+							  .height = model.height(),
+							  .stride = model.width(),
+							  .buffer = renderer.frameAllocator()(size_t(model.width()) * model.height())};
+			for (size_t i = 0; i < frame.buffer->bytes().size(); ++i) frame.buffer->bytes()[i] = std::byte(i * 7919 % 251);
+			inputs.cameras[e] = CameraView{.frame = frame, .cameraInOrigin = rig.cameras[e].cameraInHead, .lens = uint32_t(e)};
+			inputs.top[e] = inputs.bottom[e] = {rig.eyeInHead[e], identityPose};
+			const XrQuaternionf turned = rotationAbout({0, 1, 0}, 0.05);
+			inputs.bottom[e].viewInOrigin.orientation = turned;
+		}
+	}
+	void addProjection(bool opaque)
+	{
+		PanelLayer &layer = inputs.layers.emplace_back();
+		layer.flags = opaque ? 0 : XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
+		for (uint32_t e = 0; e < 2; ++e) {
+			const auto fov = rig.lens.fov(Eye(e), rig.interpupillaryDistance);
+			const XrFovf angles{-float(std::atan(fov.left)), float(std::atan(fov.right)), float(std::atan(fov.up)),
+								-float(std::atan(fov.down))};
+			layer.projection[e] = ProjectionView{rig.eyeInHead[e], angles, {1, e, {{0, 0}, {int32_t(viewWidth), int32_t(viewHeight)}}}};
+		}
+	}
+	void addQuad(float size, float x)
+	{
+		PanelLayer &layer = inputs.layers.emplace_back();
+		layer.flags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
+		for (auto &quad : layer.quad) quad = QuadView{{identityOrientation, {x, 0, -1}}, {size, size}, {1, 0, {{0, 0}, {512, 512}}}};
+	}
+	void render()
+	{
+		for (auto &camera : inputs.cameras)
+			if (camera) ++camera->frame.sequence;
+		renderer.render(inputs);
+	}
+
+	gpu::Device device;
+	Rig rig;
+	std::optional<gpu::SharedImage> views;
+	PanelRenderer renderer;
+	PanelInputs inputs;
+};
+
+template <typename SetUp> void measure(benchmark::State &state, SetUp setUp)
+{
+	Scene scene;
+	setUp(scene);
+	for (int warm = 0; warm < 3; ++warm) scene.render();
+	for (auto _ : state) scene.render();
+}
+
+void nothing(benchmark::State &state)
+{
+	measure(state, [](Scene &scene) { scene.inputs.cameras = {}; });
+}
+void cameraOnly(benchmark::State &state)
+{
+	measure(state, [](Scene &) {});
+}
+void cameraAndSmallQuad(benchmark::State &state)
+{
+	measure(state, [](Scene &scene) { scene.addQuad(0.3f, 0); });
+}
+void cameraAndFullLayer(benchmark::State &state)
+{
+	measure(state, [](Scene &scene) { scene.addProjection(false); });
+}
+void opaqueLayer(benchmark::State &state)
+{
+	measure(state, [](Scene &scene) {
+		scene.inputs.blendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+		scene.addProjection(true);
+	});
+}
+void cameraFullLayerAndFourQuads(benchmark::State &state)
+{
+	measure(state, [](Scene &scene) {
+		scene.addProjection(false);
+		for (int i = 0; i < 4; ++i) scene.addQuad(0.3f, 0.35f * float(i) - 0.5f);
+	});
+}
+void makeRenderer(benchmark::State &state)
+{
+	gpu::Device device;
+	const Rig rig = readRig(ARIFT_RIG);
+	for (auto _ : state) PanelRenderer renderer(device, rig);
+}
+
+#define ARIFT_FRAME_BENCHMARK(name) BENCHMARK(name)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()
+ARIFT_FRAME_BENCHMARK(nothing);
+ARIFT_FRAME_BENCHMARK(cameraOnly);
+ARIFT_FRAME_BENCHMARK(cameraAndSmallQuad);
+ARIFT_FRAME_BENCHMARK(cameraAndFullLayer);
+ARIFT_FRAME_BENCHMARK(opaqueLayer);
+ARIFT_FRAME_BENCHMARK(cameraFullLayerAndFourQuads);
+ARIFT_FRAME_BENCHMARK(makeRenderer);
+
+} // namespace
+} // namespace arift

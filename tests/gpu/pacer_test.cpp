@@ -1,0 +1,145 @@
+// Pacing in simulated time: no thread, no sleep.
+#include "runtime/compositor/pacer.h"
+#include <gtest/gtest.h>
+#include <random>
+#include <vector>
+
+namespace arift
+{
+namespace
+{
+
+constexpr XrDuration period = 16'691'704, vblankToDisplay = 25'072'135, margin = 1'000'000;
+constexpr Pacer::Settings settings{.period = period, .vblankToDisplay = vblankToDisplay, .margin = margin, .firstCost = 5'000'000};
+
+/// A display whose vertical blanks come every `truePeriod`, and a machine that composes for `cost`.
+struct Simulation {
+	Pacer pacer{settings, 1'000'000'000};
+	XrDuration truePeriod = period, cost = 4'000'000;
+	XrTime firstDisplay = 1'000'000'000 + 3'000'000; ///< not where the pacer thinks
+	XrTime now = 2'000'000'000;
+	std::vector<XrTime> shown;
+	std::vector<XrDuration> waitedForBlank;
+
+	/// The display time of an image that is finished now.
+	XrTime displayAfter(XrTime finished) const
+	{
+		const XrTime blank = firstDisplay - vblankToDisplay;
+		const XrDuration k = (finished - blank + truePeriod - 1) / truePeriod;
+		return firstDisplay + k * truePeriod;
+	}
+	Pacer::Refresh frame(XrDuration jitter = 0)
+	{
+		const Pacer::Refresh refresh = pacer.next(now);
+		const XrTime finished = refresh.latch + cost;
+		pacer.composed(cost);
+		const XrTime display = displayAfter(finished);
+		waitedForBlank.push_back(display - vblankToDisplay - finished);
+		shown.push_back(display);
+		pacer.displayed(display + jitter);
+		now = std::max(finished, display - vblankToDisplay); // as a display with vertical synchronisation lets go
+		return refresh;
+	}
+	void run(int frames)
+	{
+		for (int i = 0; i < frames; ++i) frame();
+	}
+};
+
+TEST(Pacer, theNextRefreshLeavesRoomForComposing)
+{
+	const Pacer pacer(settings, 1'000'000'000);
+	const Pacer::Refresh refresh = pacer.next(1'000'000'000);
+	EXPECT_EQ(refresh.display - refresh.vblank, vblankToDisplay);
+	EXPECT_EQ(refresh.vblank - refresh.latch, pacer.cost() + margin);
+	EXPECT_GE(refresh.latch, 1'000'000'000);
+	EXPECT_LT(refresh.latch, 1'000'000'000 + period);
+	EXPECT_EQ((refresh.display - 1'000'000'000) % period, 0);
+}
+
+TEST(Pacer, findsTheDisplaysPhaseAndPeriod)
+{
+	Simulation simulation;
+	simulation.truePeriod = period + 20'000; // 0.12 % slower
+	simulation.run(2000);
+	EXPECT_NEAR(double(simulation.pacer.period()), double(simulation.truePeriod), 300);
+	const Pacer::Refresh refresh = simulation.frame();
+	EXPECT_NEAR(double(refresh.display), double(simulation.shown.back()), 20'000);
+	EXPECT_EQ(simulation.pacer.missed(), 0u);
+}
+
+TEST(Pacer, showsAnImageAtEveryRefreshAndFinishesJustBeforeTheBlank)
+{
+	Simulation simulation;
+	simulation.run(300);
+	const size_t begin = simulation.shown.size();
+	simulation.run(300);
+	for (size_t i = begin; i < simulation.shown.size(); ++i) {
+		EXPECT_EQ(simulation.shown[i] - simulation.shown[i - 1], period);
+		EXPECT_NEAR(double(simulation.waitedForBlank[i]), double(margin), 100'000);
+	}
+	EXPECT_EQ(simulation.pacer.missed(), 0u);
+}
+
+TEST(Pacer, aJitteringReportMovesTheGridLittle)
+{
+	Simulation simulation;
+	simulation.run(300);
+	std::mt19937 random(7);
+	std::normal_distribution<double> late(0, 500'000);
+	for (int i = 0; i < 1000; ++i) {
+		const Pacer::Refresh refresh = simulation.frame(XrDuration(late(random)));
+		EXPECT_NEAR(double(refresh.display), double(simulation.shown.back()), 700'000);
+	}
+	EXPECT_NEAR(double(simulation.pacer.period()), double(period), 20'000);
+}
+
+TEST(Pacer, aSlowMachineSkipsWholeRefreshes)
+{
+	Simulation simulation;
+	simulation.firstDisplay = 1'000'000'000;
+	simulation.cost = 40'000'000; // two and a half periods
+	simulation.run(100);
+	const uint64_t missedBefore = simulation.pacer.missed();
+	const size_t begin = simulation.shown.size();
+	simulation.run(60);
+	for (size_t i = begin; i < simulation.shown.size(); ++i) EXPECT_EQ(simulation.shown[i] - simulation.shown[i - 1], 3 * period);
+	EXPECT_EQ(simulation.pacer.missed() - missedBefore, 2u * 60u);
+}
+
+TEST(Pacer, anOutlierDoesNotChangeTheExpectedCost)
+{
+	Pacer pacer(settings, 0);
+	for (int i = 0; i < 64; ++i) pacer.composed(4'000'000);
+	pacer.composed(500'000'000);
+	EXPECT_EQ(pacer.cost(), 4'000'000);
+	for (int i = 0; i < 64; ++i) pacer.composed(500'000'000);
+	EXPECT_EQ(pacer.cost(), 4 * period);
+}
+
+TEST(Pacer, followsADisplayThatChangesItsPhase)
+{
+	Simulation simulation;
+	simulation.run(200);
+	simulation.firstDisplay += period / 2;
+	simulation.run(300);
+	const Pacer::Refresh refresh = simulation.frame();
+	EXPECT_NEAR(double(refresh.display), double(simulation.shown.back()), 20'000);
+}
+
+TEST(Pacer, anApplicationWokenNowIsToldTheRefreshAfterThisOne)
+{
+	Simulation simulation;
+	simulation.run(300);
+	const Pacer::Refresh now = simulation.pacer.next(simulation.now), after = simulation.pacer.following(now);
+	EXPECT_NEAR(double(after.display - now.display), double(period), 2);
+	EXPECT_GE(after.latch, now.latch + simulation.pacer.cost());
+	// Where composing takes longer than a period, the image in between is never made.
+	simulation.cost = 20'000'000;
+	simulation.run(100);
+	const Pacer::Refresh slow = simulation.pacer.next(simulation.now);
+	EXPECT_NEAR(double(simulation.pacer.following(slow).display - slow.display), 2.0 * period, 3);
+}
+
+} // namespace
+} // namespace arift

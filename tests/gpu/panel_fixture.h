@@ -1,0 +1,74 @@
+// A renderer over a plain rig, images as an application would make them, and colours by hand. For the panel tests.
+#pragma once
+#include "runtime/compositor/panel_renderer.h"
+#include "runtime/gpu/device.h"
+#include "runtime/optics/rig.h"
+#include <functional>
+#include <glm/vec2.hpp>
+#include <gtest/gtest.h>
+
+namespace arift
+{
+
+using Linear = std::array<double, 3>;
+
+/// What a linear value is in an sRGB texel, 0..255.
+double encoded(double linear);
+
+/// DK1 lens, eyes 64 mm apart, two cameras of 320x240 at the eyes that see 76 x 62 degrees.
+Rig plainRig();
+constexpr uint32_t cameraWidth = 320, cameraHeight = 240;
+
+/// The head at rest in the origin, seen from the eyes; no camera, no layer.
+PanelInputs inputsAtRest(const Rig &rig);
+
+/// An image of an application: filled by `texel` (x, y, array layer -> RGBA bytes), handed over as the specification says.
+class LayerImage
+{
+public:
+	using Texel = std::function<std::array<uint8_t, 4>(uint32_t, uint32_t, uint32_t)>;
+	LayerImage(gpu::Device &device, uint32_t width, uint32_t height, const Texel &texel, VkFormat format = VK_FORMAT_R8G8B8A8_UNORM,
+			   uint32_t arrayLayers = 1);
+	VkImage image() const { return shared_.image(); }
+	const gpu::ImageSpec &spec() const { return shared_.spec(); }
+
+private:
+	gpu::SharedImage shared_;
+};
+
+class PanelTest : public testing::Test
+{
+protected:
+	PanelTest() : rig(plainRig()), renderer(device, rig), inputs(inputsAtRest(rig)) {}
+	~PanelTest() override { EXPECT_EQ(device.validationMessages(), 0u); }
+
+	/// A frame whose every byte is what `value` says for x (in bytes) and y.
+	CameraFrame frame(PixelFormat format, const std::function<uint8_t(uint32_t, uint32_t)> &value, bool ours = true, uint32_t padding = 0);
+	/// Both eyes see a uniform grey image of this raw value.
+	void seeGrey(uint8_t value);
+	/// A layer of one colour (linear, RGBA bytes) that fills both eyes, at the pose it is shown for.
+	PanelLayer &addUniformLayer(std::array<uint8_t, 4> colour, XrCompositionLayerFlags flags);
+	/// A quad with one image for both eyes.
+	PanelLayer &addQuad(uint64_t image, XrPosef quadInOrigin, XrExtent2Df size, XrRect2Di rect, uint32_t arrayIndex = 0);
+	uint64_t addImage(uint32_t width, uint32_t height, const LayerImage::Texel &texel, VkFormat format = VK_FORMAT_R8G8B8A8_UNORM,
+					  uint32_t arrayLayers = 1);
+
+	void render();
+	/// RGB bytes at a panel pixel of the last render().
+	std::array<int, 3> at(int x, int y) const;
+	/// The panel pixel in which an eye sees a point of the origin frame, in green.
+	glm::dvec2 pixelOf(Eye eye, XrVector3f point) const;
+	void expectNear(std::array<int, 3> found, const Linear &expected, double tolerance = 1.01) const;
+
+	gpu::Device device;
+	Rig rig;
+	std::vector<std::unique_ptr<LayerImage>> images;
+	PanelRenderer renderer;
+	PanelInputs inputs;
+	ReadbackImage panel;
+	uint64_t sequence = 0;
+	/// On the left eye's axis.
+	static constexpr int centreX = 345, centreY = 400;
+};
+
+} // namespace arift

@@ -1,0 +1,178 @@
+// Which tiles are drawn with what, and the matrices behind it: without a GPU.
+#include "runtime/compositor/reprojection.h"
+#include "runtime/compositor/tiles.h"
+#include <gtest/gtest.h>
+#include <map>
+
+namespace arift
+{
+namespace
+{
+
+/// 640 x 400 pixels; tangents -1..1 and -0.625..0.625.
+TileGrid plainGrid(double radius = 1e9)
+{
+	return TileGrid({0, 0, 640, 400}, {320, 200}, radius, [](glm::dvec2 p) { return glm::dvec2((p.x - 320) / 320, (200 - p.y) / 320); });
+}
+/// u = (x - left) / (right - left), v likewise downwards.
+MatrixByBand window(double left, double right, double up, double down)
+{
+	const glm::dmat3 m =
+		glm::transpose(glm::dmat3{1 / (right - left), 0, -left / (right - left), 0, -1 / (up - down), up / (up - down), 0, 0, 1});
+	return {m, m, m};
+}
+
+/// How often each pixel is drawn, by blend.
+std::map<Blend, std::vector<int>> painted(const std::vector<TileDraw> &draws)
+{
+	std::map<Blend, std::vector<int>> counts;
+	for (const TileDraw &draw : draws) {
+		auto &count = counts[draw.blend];
+		count.resize(640 * 400);
+		for (const PixelRect &rect : draw.rects)
+			for (int y = rect.y0; y < rect.y1; ++y)
+				for (int x = rect.x0; x < rect.x1; ++x) ++count[size_t(y) * 640 + size_t(x)];
+	}
+	return counts;
+}
+
+TEST(TileGrid, coversTheCircleAndLittleElse)
+{
+	const TileGrid grid = plainGrid(150);
+	int pixels = 0;
+	for (int row = 0; row < grid.rows(); ++row)
+		for (int column = 0; column < grid.columns(); ++column) {
+			const PixelRect tile = grid.tile(column, row);
+			if (tile.x0 < tile.x1) pixels += (tile.x1 - tile.x0) * (tile.y1 - tile.y0);
+		}
+	EXPECT_GT(pixels, M_PI * 150 * 150);
+	EXPECT_LT(pixels, M_PI * 150 * 150 * 1.15);
+}
+
+TEST(Coverage, isExactInTheMiddleAndCarefulAtEdges)
+{
+	const TileGrid grid = plainGrid();
+	const auto cover = coverage(grid, window(-0.5, 0.5, 0.3, -0.3));
+	for (int row = 0; row < grid.rows(); ++row)
+		for (int column = 0; column < grid.columns(); ++column) {
+			const auto least = glm::min(grid.corner(column, row), grid.corner(column + 1, row + 1));
+			const auto most = glm::max(grid.corner(column, row), grid.corner(column + 1, row + 1));
+			const bool touches = most.x > -0.5 && least.x < 0.5 && most.y > -0.3 && least.y < 0.3;
+			const bool inside = least.x >= -0.5 && most.x <= 0.5 && least.y >= -0.3 && most.y <= 0.3;
+			const Cover found = cover[size_t(row * grid.columns() + column)];
+			EXPECT_FALSE(touches && found == Cover::none);
+			EXPECT_FALSE(!inside && found == Cover::fully);
+		}
+	EXPECT_EQ(cover[size_t(grid.rows() / 2 * grid.columns() + grid.columns() / 2)], Cover::fully);
+	EXPECT_EQ(cover.front(), Cover::none);
+}
+
+TEST(PlanDraws, everyPixelIsReplacedOnceAndEachFurtherLayerBlended)
+{
+	const TileGrid grid = plainGrid();
+	const std::array layers{PlannedLayer{coverage(grid, window(-2, 2, 2, -2)), false},
+							PlannedLayer{coverage(grid, window(-2, 0, 2, -2)), false}};
+	const auto counts = painted(planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, layers));
+	for (const int count : counts.at(Blend::replace)) ASSERT_EQ(count, 1);
+	EXPECT_EQ(counts.at(Blend::over)[200 * 640 + 10], 1);
+	EXPECT_EQ(counts.at(Blend::over)[200 * 640 + 600], 0);
+	EXPECT_FALSE(counts.contains(Blend::add));
+}
+
+TEST(PlanDraws, anOpaqueLayerOverAWholeTileLeavesNothingBelow)
+{
+	const TileGrid grid = plainGrid();
+	const std::array layers{PlannedLayer{coverage(grid, window(-2, 2, 2, -2)), false},
+							PlannedLayer{coverage(grid, window(-2, 2, 2, -2)), true}};
+	for (const TileDraw &draw : planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, layers)) {
+		EXPECT_EQ(draw.layer, 1);
+		EXPECT_FALSE(draw.backdrop);
+	}
+}
+
+TEST(PlanDraws, addedLightComesLast)
+{
+	const TileGrid grid = plainGrid();
+	const PlannedLayer everywhere{coverage(grid, window(-2, 2, 2, -2)), false};
+	const std::array layers{everywhere, everywhere, everywhere};
+	const auto draws = planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ADDITIVE, layers);
+	std::vector<std::pair<Blend, int>> order;
+	for (const TileDraw &draw : draws)
+		if (draw.band == 0) order.emplace_back(draw.blend, draw.layer);
+	EXPECT_EQ(order, (std::vector<std::pair<Blend, int>>{{Blend::replace, 0}, {Blend::over, 1}, {Blend::over, 2}, {Blend::add, -1}}));
+	for (const TileDraw &draw : draws) EXPECT_EQ(draw.backdrop, draw.blend == Blend::add);
+}
+
+TEST(PlanDraws, withoutEnvironmentOrLayersNothingIsDrawn)
+{
+	EXPECT_TRUE(planDraws(plainGrid(), XR_ENVIRONMENT_BLEND_MODE_OPAQUE, {}).empty());
+}
+
+// ---- matrices
+
+EyeAtLine eyeAt(glm::dvec3 position, double planeDistance = 2)
+{
+	EyeAtLine eye;
+	eye.view.position = position;
+	eye.planeDistance = planeDistance;
+	return eye;
+}
+glm::dvec2 divided(const glm::dvec3 &h) { return {h.x / h.z, h.y / h.z}; }
+
+TEST(Reprojection, aCameraBesideTheEyeSeesThePlaneShifted)
+{
+	// A point straight ahead on the plane, 2 m away; the camera is 10 cm to the right of the eye and 5 cm above.
+	const glm::dvec3 q = cameraMatrix(eyeAt({0, 0, 0}), {identityOrientation, {0.1f, 0.05f, 0}}) * glm::dvec3(0, 0, 1);
+	EXPECT_NEAR(q.x / q.z, -0.05, 1e-6);
+	EXPECT_NEAR(q.y / q.z, 0.025, 1e-6); // down in the image
+}
+
+TEST(Reprojection, aTurnedCameraSeesDirectionsTurnedBack)
+{
+	const glm::dvec3 q = cameraMatrix(eyeAt({0, 0, 0}), {rotationAbout({0, 1, 0}, 0.3), {0, 0, 0}}) * glm::dvec3(0, 0, 1);
+	EXPECT_NEAR(std::atan2(q.x, q.z), 0.3, 1e-6); // the camera looks left, so what is ahead is to its right
+}
+
+TEST(Reprojection, aLayerAtItsOwnPoseIsItsOwnPicture)
+{
+	const ProjectionView view{{identityOrientation, {0.03f, 0, 0}}, {-0.6f, 0.4f, 0.5f, -0.7f}, {}};
+	const auto m = projectionMatrix(eyeAt({0.03, 0, 0}), false, view);
+	for (const glm::dvec2 uv : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0.3, 0.8)}) {
+		const double x = glm::mix(std::tan(-0.6), std::tan(0.4), uv.x), y = glm::mix(std::tan(0.5), std::tan(-0.7), uv.y);
+		const glm::dvec2 found = divided(m * glm::dvec3(x, y, 1));
+		EXPECT_NEAR(found.x, uv.x, 1e-6);
+		EXPECT_NEAR(found.y, uv.y, 1e-6);
+	}
+}
+
+TEST(Reprojection, aQuadsCornersAreItsPicturesCorners)
+{
+	const QuadView quad{{rotationAbout({0, 1, 0}, 0.5), {0.2f, 0.1f, -1.5f}}, {0.4f, 0.3f}, {}};
+	const glm::dvec3 eye{-0.03, 0.02, 0.01};
+	const auto m = quadMatrix(eyeAt(eye), false, quad).value();
+	for (const glm::dvec2 uv : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 1), glm::dvec2(0.5, 0.5)}) {
+		const XrVector3f corner{float(uv.x - 0.5) * 0.4f, float(0.5 - uv.y) * 0.3f, 0};
+		const glm::dvec3 ray = toGlm(quad.quadInFrame * corner) - eye;
+		const glm::dvec3 h = m * glm::dvec3(ray.x / -ray.z, ray.y / -ray.z, 1);
+		EXPECT_GT(h.z, 0);
+		EXPECT_NEAR(divided(h).x, uv.x, 1e-5);
+		EXPECT_NEAR(divided(h).y, uv.y, 1e-5);
+	}
+	EXPECT_FALSE(quadMatrix(eyeAt({0, 0, -5}), false, quad)) << "from behind";
+}
+
+TEST(Reprojection, thePlaneIsMeasuredFromTheMiddleOfBothViews)
+{
+	PanelInputs inputs;
+	inputs.passthroughDistance = 2;
+	for (size_t e = 0; e < 2; ++e) {
+		const XrPosef view{identityOrientation, {e == 0 ? -0.03f : 0.03f, 0, e == 0 ? -0.2f : 0.0f}};
+		inputs.top[e] = inputs.bottom[e] = {view, identityPose};
+	}
+	const auto eyes = eyesAtLine(inputs, 0.5);
+	EXPECT_NEAR(eyes[0].planeDistance, 1.9, 1e-6);
+	EXPECT_NEAR(eyes[1].planeDistance, 2.1, 1e-6);
+}
+
+} // namespace
+} // namespace arift
