@@ -31,8 +31,10 @@ XrPath PathTable::atom(std::string_view text)
 	std::unique_lock lock(mutex_);
 	if (const auto known = atoms_.find(text); known != atoms_.end()) return known->second;
 	if (texts_.size() >= 1u << 20) throw Error(XR_ERROR_PATH_COUNT_EXCEEDED, "{} paths exist already", texts_.size());
-	atoms_.emplace(texts_.emplace_back(text), texts_.size());
-	return texts_.size();
+	const std::string &kept = texts_.emplace_back(text);
+	const XrPath added = texts_.size();
+	atoms_.emplace(kept, added);
+	return added;
 }
 
 const std::string &PathTable::text(XrPath path) const

@@ -1,0 +1,187 @@
+#include "tests/openxr/fake_service.h"
+#include "runtime/ipc/request.h"
+#include "runtime/ipc/runtime_directory.h"
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace arift
+{
+namespace
+{
+
+std::filesystem::path privateFolder()
+{
+	std::string name = (std::filesystem::temp_directory_path() / "arift-openxr-XXXXXX").string();
+	if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+	::setenv("XDG_RUNTIME_DIR", name.c_str(), 1);
+	::setenv("ARIFT_SERVICE", "/nonexistent", 1); // nothing but this service may answer
+	return name;
+}
+
+ipc::ViewTable usualViews()
+{
+	ipc::ViewTable views{};
+	views.eyeInHead = {XrPosef{identityOrientation, {-0.032f, 0, 0}}, XrPosef{identityOrientation, {0.032f, 0, 0}}};
+	views.cameraInHead = {XrPosef{identityOrientation, {-0.03f, 0.01f, -0.08f}}, XrPosef{identityOrientation, {0.03f, 0.01f, -0.08f}}};
+	views.fov = {XrFovf{-0.9f, 0.7f, 0.85f, -0.85f}, XrFovf{-0.7f, 0.9f, 0.85f, -0.85f}};
+	views.viewOffset = 0;
+	views.pivotInHead = NeckModel{}.pivotInHead;
+	views.floorBelowLocal = 1.6f;
+	views.localInOrigin = identityPose;
+	views.stageBounds = {2, 3};
+	return views;
+}
+
+template <typename Reply> void reply(ipc::Socket &socket, const ipc::Received &request, Reply message, std::span<const int> fds = {})
+{
+	message.header.sequence = request.header()->sequence;
+	socket.send(message, fds, realTime() + second);
+}
+
+} // namespace
+
+ipc::Welcome FakeService::usualWelcome()
+{
+	ipc::Welcome welcome;
+	ipc::copyText(welcome.build, "fake");
+	ipc::copyText(welcome.systemName, "Fake headset");
+	welcome.recommendedWidth = 800;
+	welcome.recommendedHeight = 1000;
+	welcome.maxWidth = welcome.maxHeight = 4096;
+	welcome.blendModeCount = 2;
+	welcome.blendModes = {XR_ENVIRONMENT_BLEND_MODE_OPAQUE, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND};
+	return welcome;
+}
+
+FakeService::FakeService(ipc::Welcome welcome, MakeImages makeImages)
+	: folder_(privateFolder()), welcome_(std::move(welcome)), makeImages_(std::move(makeImages))
+{
+	system_->protocol = ipc::protocol;
+	system_->heartbeat = realTime();
+	system_->clock.write({});
+	system_->views.write(usualViews());
+	system_->timing.write({.displayPeriod = 16'690'000});
+	listener_ = std::make_unique<ipc::Listener>(ipc::socketPath());
+	heart_ = std::jthread([this](const std::stop_token &stop) { beat(stop); });
+	acceptor_ = std::jthread([this](const std::stop_token &stop) { accept(stop); });
+}
+
+FakeService::~FakeService()
+{
+	acceptor_.request_stop();
+	listener_->stop();
+	acceptor_.join();
+	hangUp();
+	connections_.lock()->clear(); // each thread is told to stop and joined
+	heart_ = {};
+	std::error_code ignored;
+	std::filesystem::remove_all(folder_, ignored);
+}
+
+void FakeService::beat(const std::stop_token &stop)
+{
+	while (!stop.stop_requested()) {
+		if (beating_) system_->heartbeat = realTime();
+		std::this_thread::sleep_for(std::chrono::milliseconds(20));
+	}
+}
+
+void FakeService::accept(const std::stop_token &stop)
+{
+	while (!stop.stop_requested())
+		if (auto socket = listener_->accept(realTime() + second / 10))
+			start(std::make_shared<ipc::Socket>(std::move(*socket)), &FakeService::serve);
+}
+
+void FakeService::start(std::shared_ptr<ipc::Socket> socket, void (FakeService::*work)(ipc::Socket &, const std::stop_token &))
+{
+	std::jthread thread([this, socket, work](const std::stop_token &stop) { (this->*work)(*socket, stop); });
+	connections_.lock()->push_back({std::move(socket), std::move(thread)});
+}
+
+void FakeService::hangUp()
+{
+	for (const Connection &connection : *connections_.lock()) connection.socket->hangUp();
+}
+
+void FakeService::send(const ipc::Event &event)
+{
+	const uint64_t count = client_->eventCount.load();
+	client_->events[count % ipc::ClientPage::eventSlots].write(event);
+	client_->eventCount.store(count + 1);
+}
+
+FakeService::Record FakeService::waitFor(const std::function<bool(const Record &)> &ready)
+{
+	auto record = record_.lock();
+	EXPECT_TRUE(record.waitFor({}, std::chrono::seconds(10), ready)) << "the library did not send what was expected";
+	return *record;
+}
+
+void FakeService::serve(ipc::Socket &socket, const std::stop_token &stop)
+{
+	ipc::Received received;
+	for (ipc::Transfer transfer = ipc::Transfer::timeout; transfer != ipc::Transfer::hungUp && !stop.stop_requested();) {
+		transfer = socket.receive(received, realTime() + second / 10);
+		if (transfer == ipc::Transfer::done) answer(socket, received);
+	}
+}
+
+void FakeService::answer(ipc::Socket &socket, const ipc::Received &received)
+{
+	if (const auto hello = received.as<ipc::Hello>()) {
+		record_.update([&](Record &record) { record.hellos.push_back(*hello); });
+		return reply(socket, received, welcome_, std::array{system_.fd(), ring_.fd(), client_.fd()});
+	}
+	if (received.as<ipc::CreateSession>()) {
+		auto [ours, theirs] = ipc::Socket::pair();
+		start(std::make_shared<ipc::Socket>(std::move(ours)), &FakeService::serveFrames);
+		uint32_t number = 0;
+		record_.update([&](Record &record) { number = ++record.sessionsCreated; });
+		return reply(socket, received, ipc::SessionCreated{.session = number}, std::array{theirs.fd()});
+	}
+	if (const auto create = received.as<ipc::CreateSwapchain>()) {
+		ipc::SwapchainCreated created;
+		const std::vector<UniqueFd> images = makeImages_(*create, created);
+		std::vector<int> fds;
+		for (const UniqueFd &image : images) fds.push_back(image.get());
+		record_.update([&](Record &record) {
+			record.swapchains.push_back(*create);
+			created.swapchain = uint32_t(record.swapchains.size());
+		});
+		created.imageCount = uint32_t(fds.size());
+		return reply(socket, received, created, fds);
+	}
+	record_.update([&](Record &record) {
+		if (received.as<ipc::DestroySession>()) ++record.sessionsDestroyed;
+		if (received.as<ipc::DestroySwapchain>()) ++record.swapchainsDestroyed;
+		if (const auto running = received.as<ipc::SessionRunning>()) record.running = running->running != 0;
+	});
+	reply(socket, received, ipc::Done{});
+}
+
+void FakeService::serveFrames(ipc::Socket &socket, const std::stop_token &stop)
+{
+	ipc::Received received;
+	for (ipc::Transfer transfer = ipc::Transfer::timeout; transfer != ipc::Transfer::hungUp && !stop.stop_requested();) {
+		transfer = socket.receive(received, realTime() + second / 10);
+		if (transfer != ipc::Transfer::done) continue;
+		if (const auto wait = received.as<ipc::WaitFrame>()) {
+			record_.update([&](Record &record) { record.waits.push_back(wait->header.sequence); });
+			const XrTime now = realTime();
+			socket.send(
+				ipc::FrameReady{.predictedDisplayTime = now + 30 * millisecond, .predictedDisplayPeriod = 16'690'000, .shouldRender = 1},
+				now + second);
+		} else if (const auto relinquish = received.as<ipc::Relinquish>()) {
+			client_->oldestHeldFrame = relinquish->frame + 1;
+			record_.update([&](Record &record) { record.relinquished.push_back(relinquish->frame); });
+		} else if (received.header()->type == ipc::MessageType::submission) {
+			ipc::Submission submission;
+			std::memcpy(static_cast<void *>(&submission), received.bytes.data(), received.size);
+			if (showing_) client_->oldestHeldFrame = submission.frame;
+			record_.update([&](Record &record) { record.submissions.push_back(submission); });
+		}
+	}
+}
+
+} // namespace arift

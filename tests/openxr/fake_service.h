@@ -1,0 +1,80 @@
+// The service's side of the wire for tests of the client library: a thread that answers, shared pages the test writes as it likes, and a
+// record of what the application sent. With a GPU device it hands out real images.
+#pragma once
+#include "runtime/base/guarded.h"
+#include "runtime/ipc/listener.h"
+#include "runtime/ipc/shared_memory.h"
+#include "runtime/motion/pose_history.h"
+#include <filesystem>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace arift
+{
+
+class FakeService
+{
+public:
+	/// Makes the images of a swapchain; one fd each.
+	using MakeImages = std::function<std::vector<UniqueFd>(const ipc::CreateSwapchain &, ipc::SwapchainCreated &)>;
+
+	/// Listens in a runtime directory of its own, which the environment of this process names from now on.
+	explicit FakeService(ipc::Welcome welcome = usualWelcome(), MakeImages makeImages = {});
+	~FakeService();
+	FakeService(const FakeService &) = delete;
+
+	static ipc::Welcome usualWelcome();
+
+	// ---- what the library reads
+	ipc::SystemPage &system() { return *system_; }
+	ipc::ClientPage &client() { return *client_; }
+	PoseWriter &poses() { return writer_; }
+	void send(const ipc::Event &event);
+	/// Whether a submission is let go of as soon as the next one comes, as when every refresh shows the newest.
+	void setShowing(bool showing) { showing_ = showing; }
+	void stopHeart() { beating_ = false; }
+	/// Ends every connection as a process that is killed does.
+	void hangUp();
+
+	// ---- what the library sent
+	struct Record {
+		std::vector<ipc::Hello> hellos;
+		std::vector<ipc::Submission> submissions;
+		std::vector<uint64_t> relinquished;
+		std::vector<uint32_t> waits; ///< the submissions each WaitFrame announced
+		std::vector<ipc::CreateSwapchain> swapchains;
+		uint32_t sessionsCreated = 0, sessionsDestroyed = 0, swapchainsDestroyed = 0;
+		bool running = false;
+	};
+	/// The record when it fulfils `ready`; the test fails after ten seconds.
+	Record waitFor(const std::function<bool(const Record &)> &ready);
+	Record record() { return *record_.lock(); }
+
+private:
+	void accept(const std::stop_token &stop);
+	void serve(ipc::Socket &socket, const std::stop_token &stop);
+	void serveFrames(ipc::Socket &socket, const std::stop_token &stop);
+	void answer(ipc::Socket &socket, const ipc::Received &received);
+	void beat(const std::stop_token &stop);
+	struct Connection {
+		std::shared_ptr<ipc::Socket> socket;
+		std::jthread thread;
+	};
+	void start(std::shared_ptr<ipc::Socket> socket, void (FakeService::*work)(ipc::Socket &, const std::stop_token &));
+
+	const std::filesystem::path folder_;
+	ipc::Welcome welcome_;
+	MakeImages makeImages_;
+	ipc::SharedPage<ipc::SystemPage> system_{"fake-system"};
+	ipc::SharedPage<PoseRing> ring_{"fake-poses"};
+	ipc::SharedPage<ipc::ClientPage> client_{"fake-client"};
+	PoseWriter writer_{*ring_};
+	std::atomic<bool> beating_{true}, showing_{true};
+	Guarded<Record> record_;
+	Guarded<std::vector<Connection>> connections_;
+	std::unique_ptr<ipc::Listener> listener_;
+	std::jthread heart_, acceptor_;
+};
+
+} // namespace arift
