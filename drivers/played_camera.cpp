@@ -48,7 +48,8 @@ Outcome PlayedCamera::read(CameraFrame &frame, XrTime deadline, std::stop_token 
 		const auto timing = source_->timing(next_);
 		if (!timing) return Outcome::lost;
 		const bool isMade = makeNext();
-		if (!clock_.sleepUntil(std::min(timing->arrival, deadline), stop) || timing->arrival > deadline) return Outcome::timeout;
+		const bool isDue = clock_.sleepUntil(std::min(timing->arrival, deadline), stop);
+		if (!isDue || timing->arrival > deadline || stop.stop_requested()) return Outcome::timeout;
 		if (!isMade) {
 			next_++;
 			continue;

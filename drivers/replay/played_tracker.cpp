@@ -27,7 +27,8 @@ Outcome PlayedTracker::read(ImuReport &report, XrTime deadline, std::stop_token 
 	const size_t count = playback_.samples.size();
 	if (!playback_.loop && next_ >= count) return Outcome::lost;
 	const XrTime time = timeOf(next_);
-	if (!clock_.sleepUntil(std::min(time, deadline), stop) || time > deadline) return Outcome::timeout;
+	const bool isDue = clock_.sleepUntil(std::min(time, deadline), stop);
+	if (!isDue || time > deadline || stop.stop_requested()) return Outcome::timeout;
 
 	const RecordedImu &sample = playback_.samples[next_ % count];
 	const int64_t nominal = std::llround(inSeconds(time - start_) * playback_.rate);

@@ -93,7 +93,7 @@ glm::vec3 leaves(glm::vec2 p)
 
 glm::vec3 clay(glm::vec2 p) { return colour(0xb5653f) * (0.85f + 0.2f * noise(p * 30.0f)) * (p.y > -1.29f ? 1.1f : 0.95f); }
 glm::vec3 metal(glm::vec2 p) { return colour(0x8a8f94) * (0.9f + 0.2f * noise(p * glm::vec2(200.0f, 3.0f))); }
-glm::vec3 lamp(glm::vec2) { return {1.9f, 1.8f, 1.6f}; }
+glm::vec3 lamp(glm::vec2) { return {4.0f, 3.9f, 3.6f}; }
 
 glm::vec3 bookCover(glm::vec2 p)
 {

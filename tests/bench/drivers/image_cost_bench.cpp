@@ -1,5 +1,5 @@
-// What one simulated camera image costs on one core; the bar is 6 ms for 752 x 480. With ARIFT_PICTURE_FOLDER set it also writes one de-mosaiced
-// picture of the room per view as PPM, to look at.
+// What one simulated camera image costs on one core; the bar is 6 ms for 752 x 480. With ARIFT_PICTURE_FOLDER set it also writes one
+// de-mosaiced picture of the room per view as PPM, to look at.
 #include "drivers/synthetic/motion.h"
 #include "drivers/synthetic/renderer.h"
 #include "tests/unit/drivers/support.h"
@@ -12,7 +12,8 @@
 using namespace arift;
 using namespace arift::synthetic;
 
-namespace {
+namespace
+{
 
 std::shared_ptr<const Scene> room()
 {

@@ -6,7 +6,8 @@
 #include <stdexcept>
 #include <unistd.h>
 
-namespace arift::test {
+namespace arift::test
+{
 
 XrVector3f PlainLens::ray(double x, double y) const
 {
@@ -34,8 +35,7 @@ CameraGeometry PlainLens::geometry(const XrPosef &cameraInHead) const
 std::filesystem::path sharedData()
 {
 	const char *variable = std::getenv("ARIFT_SHARED");
-	const std::filesystem::path path =
-		variable ? std::filesystem::path(variable) : std::filesystem::path(__FILE__).parent_path() / "../../../../shared";
+	const auto path = variable ? std::filesystem::path(variable) : std::filesystem::path(ARIFT_SOURCE_DIR) / "../shared";
 	return std::filesystem::exists(path / "data") ? path / "data" : std::filesystem::path();
 }
 

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-namespace arift::test {
+namespace arift::test
+{
 
 /// A lens on paper: pixel = centre + f * (angle off the axis or its tangent) along the direction.
 struct PlainLens {
@@ -23,7 +24,8 @@ struct PlainLens {
 std::filesystem::path sharedData();
 
 /// A folder of the test's own, removed at the end.
-class TemporaryFolder {
+class TemporaryFolder
+{
 public:
 	TemporaryFolder();
 	~TemporaryFolder();
