@@ -1,5 +1,6 @@
 // Second-order Butterworth low-pass whose time constant may change from sample to sample.
 #pragma once
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -14,7 +15,8 @@ struct LowPassCoefficients {
 	LowPassCoefficients(double tau, double samplePeriod)
 	{
 		constexpr double damping = 1.4142135623730951;
-		g = std::tan(samplePeriod / (damping * tau)); // tan(pi f_c T)
+		const double angle = samplePeriod / (damping * tau); // pi f_c T
+		g = angle < 1e-3 ? angle * (1 + angle * angle / 3) : std::tan(angle);
 		gain = 1 / (1 + g * (g + damping));
 		band = gain * g;
 	}
@@ -22,20 +24,26 @@ struct LowPassCoefficients {
 
 /// The state for `N` signals. Needs double precision: at 1000 Hz and some seconds a step is 1e-8 of the signal.
 template <size_t N> struct LowPass {
-	double rate[N] = {}, level[N] = {};
+	std::array<double, N> rate{}, level{};
 
-	void settle(size_t i, double value)
+	using Signals = std::array<double, N>;
+
+	void settle(const Signals &values)
 	{
-		rate[i] = 0;
-		level[i] = value;
+		rate = {};
+		level = values;
 	}
-	double step(size_t i, double input, const LowPassCoefficients &c)
+	Signals step(const Signals &input, const LowPassCoefficients &c)
 	{
-		const double middle = c.gain * rate[i] + c.band * (input - level[i]);
-		const double low = level[i] + c.g * middle;
-		rate[i] = 2 * middle - rate[i];
-		level[i] = 2 * low - level[i];
-		return low;
+		Signals output;
+		for (size_t i = 0; i < N; ++i) {
+			const double middle = c.gain * rate[i] + c.band * (input[i] - level[i]);
+			const double low = level[i] + c.g * middle;
+			rate[i] = 2 * middle - rate[i];
+			level[i] = 2 * low - level[i];
+			output[i] = low;
+		}
+		return output;
 	}
 };
 

@@ -24,10 +24,11 @@ void MagneticHeading::update(const glm::dvec3 &fieldInEarth, double turn, double
 	if (!(norm > 0) || !std::isfinite(norm) || !(period > 0)) return;
 	if (std::abs(period - coefficients_.period) > 1e-3 * period) coefficients_ = MagneticCoefficients(parameters_, period);
 	const double dip = -std::asin(std::clamp(fieldInEarth.z / norm, -1.0, 1.0));
-	if (!state_.started) state_.current.settle(0, norm), state_.current.settle(1, dip);
+	if (!state_.started) state_.current.settle({norm, dip});
 	state_.started = true;
-	state_.norm = state_.current.step(0, norm, coefficients_.current);
-	state_.dip = state_.current.step(1, dip, coefficients_.current);
+	const auto [smoothNorm, smoothDip] = state_.current.step({norm, dip}, coefficients_.current);
+	state_.norm = smoothNorm;
+	state_.dip = smoothDip;
 	judge(turn);
 	constexpr double whole = 6.283185307179586;
 	const double error = std::remainder(std::atan2(fieldInEarth.x, fieldInEarth.y) - state_.heading, whole);

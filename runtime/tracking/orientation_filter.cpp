@@ -8,13 +8,19 @@ namespace
 {
 
 bool isFinite(const glm::dvec3 &v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+double squared(const glm::dvec3 &v) { return glm::dot(v, v); }
+double squared(double x) { return x * x; }
 double greatest(const glm::dvec3 &v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+std::array<double, 3> signals(const glm::dvec3 &v) { return {v.x, v.y, v.z}; }
+glm::dvec3 vector(const std::array<double, 3> &v) { return {v[0], v[1], v[2]}; }
 
 /// The shortest rotation that takes the unit vector `up` to (0, 0, 1): level axis, equations 12 and 13 of the paper.
 glm::dquat levelling(const glm::dvec3 &up)
 {
 	const double w = std::sqrt(std::max(0.0, (up.z + 1) / 2));
-	return w > 1e-6 ? glm::dquat(w, 0.5 * up.y / w, -0.5 * up.x / w, 0) : glm::dquat(0, 1, 0, 0);
+	const double half = 0.5 / w;
+	return w > 1e-6 ? glm::dquat(w, half * up.y, -half * up.x, 0) : glm::dquat(0, 1, 0, 0);
 }
 
 } // namespace
@@ -68,14 +74,14 @@ void OrientationFilter::interrupt()
 /// Section 3.6: at rest when rate and acceleration have long not left their means and the mean rate can be a bias.
 void OrientationFilter::detectRest(const glm::dvec3 &rate, const glm::dvec3 &acceleration)
 {
-	glm::dvec3 meanAcceleration;
-	for (int i = 0; i < 3; ++i) {
-		if (!state_.settled) state_.restRate.settle(i, rate[i]), state_.restAcceleration.settle(i, acceleration[i]);
-		state_.meanRate[i] = state_.restRate.step(i, rate[i], coefficients_.rest);
-		meanAcceleration[i] = state_.restAcceleration.step(i, acceleration[i], coefficients_.rest);
+	if (!state_.settled) {
+		state_.restRate.settle(signals(rate));
+		state_.restAcceleration.settle(signals(acceleration));
 	}
-	const bool still = glm::length(rate - state_.meanRate) <= parameters_.restRate &&
-					   glm::length(acceleration - meanAcceleration) <= parameters_.restAcceleration &&
+	state_.meanRate = vector(state_.restRate.step(signals(rate), coefficients_.rest));
+	const glm::dvec3 meanAcceleration = vector(state_.restAcceleration.step(signals(acceleration), coefficients_.rest));
+	const bool still = squared(rate - state_.meanRate) <= squared(parameters_.restRate) &&
+					   squared(acceleration - meanAcceleration) <= squared(parameters_.restAcceleration) &&
 					   greatest(state_.meanRate - state_.restBias) <= biasClip();
 	state_.stillFor = still ? state_.stillFor + coefficients_.period : 0;
 	const bool ordinary = greatest(state_.meanRate - state_.restBias) <= parameters_.biasClip;
@@ -86,8 +92,7 @@ void OrientationFilter::detectRest(const glm::dvec3 &rate, const glm::dvec3 &acc
 /// per second is what the bias is wrong by, and a share of the rate of turn (scale and misalignment).
 double OrientationFilter::accelerationTau() const
 {
-	const double turn = state_.meanTurn / parameters_.trustedTurn, error = state_.persistentError / parameters_.trustedBias;
-	const double distrust = turn + error * error;
+	const double distrust = state_.meanTurn / parameters_.trustedTurn + state_.persistence;
 	const double longest = state_.resting ? parameters_.tauAccelerationRest : parameters_.tauAcceleration;
 	return std::min(longest / (1 + distrust), std::max(parameters_.tauAccelerationStart, state_.unbroken));
 }
@@ -96,15 +101,12 @@ double OrientationFilter::accelerationTau() const
 glm::dvec3 OrientationFilter::correctInclination(const glm::dvec3 &acceleration, const LowPassCoefficients &lowPass)
 {
 	const glm::dvec3 inertial = state_.gyroscopeOnly * acceleration;
-	glm::dvec3 smooth;
-	for (int i = 0; i < 3; ++i) {
-		if (!state_.settled) state_.acceleration.settle(i, inertial[i]);
-		smooth[i] = state_.acceleration.step(i, inertial[i], lowPass);
-	}
+	if (!state_.settled) state_.acceleration.settle(signals(inertial));
+	const glm::dvec3 smooth = vector(state_.acceleration.step(signals(inertial), lowPass));
 	state_.settled = true;
 	const double norm = glm::length(smooth);
 	if (norm < 1e-9) return {0, 0, 1};
-	const glm::dvec3 up = state_.inclination * smooth / norm;
+	const glm::dvec3 up = state_.inclination * (smooth * (1 / norm));
 	state_.inclination = glm::normalize(levelling(up) * state_.inclination);
 	return up;
 }
@@ -116,27 +118,22 @@ void OrientationFilter::estimateBias(const glm::dvec3 &up, const LowPassCoeffici
 {
 	OrientationState &s = state_;
 	const glm::dmat3 imuInEarth = glm::mat3_cast(orientation());
-	const bool starting = period == 0;
-	glm::dvec3 rows[2];
-	double errors[2];
-	for (int row = 0; row < 2; ++row) {
-		const glm::dvec3 exact(imuInEarth[0][row], imuInEarth[1][row], imuInEarth[2][row]);
-		const double turned = glm::dot(exact, s.bias);
-		for (int i = 0; i < 3; ++i) {
-			if (starting) s.rotation.settle(3 * row + i, exact[i]);
-			rows[row][i] = s.rotation.step(3 * row + i, exact[i], lowPass);
-		}
-		if (starting) s.rotatedBias.settle(row, turned);
-		const double correction = (row == 0 ? -up.y : up.x) / period;
-		errors[row] = (starting ? 0 : correction) + s.rotatedBias.step(row, turned, lowPass) - glm::dot(rows[row], s.bias);
+	const glm::dvec3 level[2] = {{imuInEarth[0][0], imuInEarth[1][0], imuInEarth[2][0]},
+								 {imuInEarth[0][1], imuInEarth[1][1], imuInEarth[2][1]}};
+	const LowPass<8>::Signals exact{
+		level[0].x, level[0].y, level[0].z, level[1].x, level[1].y, level[1].z, glm::dot(level[0], s.bias), glm::dot(level[1], s.bias)};
+	if (period == 0) {
+		s.rotation.settle(exact);
+		s.biasError = {};
 	}
-
+	const LowPass<8>::Signals late = s.rotation.step(exact, lowPass);
+	const glm::dvec3 rows[2] = {{late[0], late[1], late[2]}, {late[3], late[4], late[5]}};
 	const double clip = biasClip();
-	for (int row = 0; row < 2; ++row) errors[row] = std::clamp(errors[row], -clip, clip);
-	if (starting) s.biasError = {};
-	const double level[2] = {s.biasError.step(0, errors[0], coefficients_.biasError),
-							 s.biasError.step(1, errors[1], coefficients_.biasError)};
-	s.persistentError = std::sqrt(level[0] * level[0] + level[1] * level[1]);
+	const double perSecond = period == 0 ? 0 : 1 / period;
+	const std::array<double, 2> errors{std::clamp(-up.y * perSecond + late[6] - glm::dot(rows[0], s.bias), -clip, clip),
+									   std::clamp(up.x * perSecond + late[7] - glm::dot(rows[1], s.bias), -clip, clip)};
+	const std::array<double, 2> lasting = s.biasError.step(errors, coefficients_.biasError);
+	s.persistence = (squared(lasting[0]) + squared(lasting[1])) / squared(parameters_.trustedBias);
 	const glm::dvec3 before = s.bias;
 	for (int i = 0; i < 3; ++i)
 		s.biasCovariance[i][i] = std::min(s.biasCovariance[i][i] + coefficients_.biasNoise, coefficients_.biasInitial);
@@ -152,8 +149,7 @@ void OrientationFilter::estimateBias(const glm::dvec3 &up, const LowPassCoeffici
 		s.rested = true;
 		s.restBias = s.bias;
 	} else {
-		const double persistence = s.persistentError / parameters_.trustedBias;
-		const double variance = coefficients_.biasMotion / (1 + parameters_.biasPersistence * persistence * persistence);
+		const double variance = coefficients_.biasMotion / (1 + parameters_.biasPersistence * s.persistence);
 		for (int row = 0; row < 2; ++row) observe(rows[row], errors[row], variance);
 	}
 	s.bias = glm::clamp(s.bias, s.restBias - clip, s.restBias + clip);

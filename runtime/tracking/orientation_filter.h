@@ -50,10 +50,9 @@ struct OrientationState {
 	double meanTurn = 0;                  ///< rad/s
 
 	LowPass<3> acceleration; ///< in the almost inertial frame
-	LowPass<6> rotation;     ///< the two level rows of IMU in earth, delayed as the acceleration is
-	LowPass<2> rotatedBias;
-	LowPass<2> biasError;       ///< rad/s, level: what motion says about the bias
-	double persistentError = 0; ///< rad/s, its length
+	LowPass<8> rotation;     ///< the two level rows of IMU in earth and their products with the bias, delayed as the acceleration is
+	LowPass<2> biasError;    ///< rad/s, level: what motion says about the bias
+	double persistence = 0;  ///< the square of its length by that of trustedBias
 
 	glm::dvec3 bias{0};           ///< rad/s
 	glm::dmat3 biasCovariance{0}; ///< (rad/s)^2

@@ -50,7 +50,7 @@ TEST(LowPass, IsTheBilinearButterworthInDirectForm)
 	for (int i = 0; i < 3000; ++i) {
 		const double x = std::sin(0.01 * i) + (i % 7);
 		const double y = b0 * (x + 2 * x1 + x2) - a1 * y1 - a2 * y2;
-		EXPECT_NEAR(lowPass.step(0, x, {tau, period}), y, 1e-9);
+		EXPECT_NEAR(lowPass.step({x}, {tau, period})[0], y, 1e-9);
 		x2 = x1, x1 = x, y2 = y1, y1 = y;
 	}
 }
@@ -58,8 +58,8 @@ TEST(LowPass, IsTheBilinearButterworthInDirectForm)
 TEST(LowPass, DoesNotJumpWhenItsTimeConstantChanges)
 {
 	LowPass<1> lowPass;
-	lowPass.settle(0, 5);
-	for (const double tau : {0.05, 10.0, 0.1, 100.0}) EXPECT_NEAR(lowPass.step(0, 5, {tau, period}), 5, 1e-12);
+	lowPass.settle({5});
+	for (const double tau : {0.05, 10.0, 0.1, 100.0}) EXPECT_NEAR(lowPass.step({5}, {tau, period})[0], 5, 1e-12);
 }
 
 TEST(OrientationFilter, FindsUpWithinHalfASecondHoweverItLies)
