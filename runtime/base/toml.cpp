@@ -1,14 +1,38 @@
 #include "runtime/base/toml.h"
 #include <sstream>
+#include <utility>
 
-namespace arift {
+namespace arift
+{
 
-namespace {
+namespace
+{
+
+/// Not toml++'s own formatter: for the width of an array it casts negative numbers to unsigned ones, and 0.1 is not 0.10000000000000001 to
+/// people.
+void show(const toml::node &node, std::ostream &text)
+{
+	node.visit([&](const auto &value) {
+		if constexpr (toml::is_floating_point<decltype(value)>)
+			text << fmt::format("{}", value.get());
+		else if constexpr (toml::is_table<decltype(value)>)
+			text << "(a table)";
+		else if constexpr (toml::is_array<decltype(value)>) {
+			const char *separator = "[ ";
+			for (const toml::node &element : value) {
+				text << std::exchange(separator, ", ");
+				show(element, text);
+			}
+			text << (value.empty() ? "[]" : " ]");
+		} else
+			text << value;
+	});
+}
 
 std::string shown(const toml::node &node)
 {
 	std::ostringstream text;
-	node.visit([&](const auto &value) { text << value; });
+	show(node, text);
 	std::string result = text.str();
 	if (result.size() > 60) result = result.substr(0, 57) + "...";
 	return result;

@@ -91,8 +91,8 @@ std::optional<glm::dvec2> LensModel::pixel(Eye eye, Channel channel, glm::dvec2 
 {
 	const double wanted = glm::length(tangents);
 	if (wanted == 0) return centre(eye);
-	const auto [a, b] = chromatic(channel);
-	const auto tangentOf = [&](double r) { return r * scale(r * r) * (a + b * r * r); };
+	const std::array<double, 2> colour = chromatic(channel);
+	const auto tangentOf = [&](double r) { return r * scale(r * r) * (colour[0] + colour[1] * r * r); };
 	const double furthest = furthestRadius(*this);
 	if (!(wanted <= tangentOf(furthest))) return {};
 	const auto residual = [&](double r) -> ValueAndSlope {
