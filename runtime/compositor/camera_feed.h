@@ -1,0 +1,59 @@
+// One camera as the compositor sees it: its newest image, and when the next ones will be there.
+#pragma once
+#include "runtime/base/guarded.h"
+#include "runtime/device/camera.h"
+#include "runtime/ipc/pages.h"
+#include <deque>
+#include <optional>
+
+namespace arift
+{
+
+/// Mid-exposures and arrivals of recent images -> when images are taken and usable. Robust against single late or mistimed ones. Pure.
+class CameraTimingEstimate
+{
+public:
+	void add(uint64_t sequence, XrTime midExposure, XrTime usable);
+	/// period 0 until two images are known.
+	ipc::CameraTiming timing() const;
+
+private:
+	static constexpr size_t kept = 31;
+	struct Image {
+		uint64_t sequence;
+		XrTime midExposure;
+		XrDuration delay;
+	};
+	std::deque<Image> images_;
+};
+
+/// An image, and how its camera's raw values are to be read (as in CameraInfo).
+struct CameraImage {
+	CameraFrame frame;
+	double blackLevel = 0;
+	std::array<float, 3> whiteBalance{1, 1, 1};
+	bool linear = true;
+};
+
+/// Thread-safe: one camera thread puts, the compositor takes.
+class CameraFeed
+{
+public:
+	/// `usable` is when the image was handed over.
+	void put(CameraImage image, XrTime usable);
+	/// The camera is gone: no image is the newest until one comes again.
+	void lose();
+	std::optional<CameraImage> newest();
+	ipc::CameraTiming timing();
+	uint64_t received();
+
+private:
+	struct State {
+		std::optional<CameraImage> newest;
+		CameraTimingEstimate estimate;
+		uint64_t received = 0;
+	};
+	Guarded<State> state_;
+};
+
+} // namespace arift

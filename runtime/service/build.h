@@ -1,0 +1,10 @@
+// Which build this is: shown to people when library and service do not fit together.
+#pragma once
+
+namespace arift
+{
+
+constexpr const char *version = ARIFT_VERSION;
+constexpr const char *buildId = "ARift " ARIFT_VERSION " " __DATE__ " " __TIME__;
+
+} // namespace arift

@@ -1,0 +1,186 @@
+#include "runtime/service/client.h"
+#include "runtime/compositor/compositor.h"
+#include "runtime/ipc/request.h"
+#include "runtime/service/build.h"
+#include <nlohmann/json.hpp>
+
+namespace arift
+{
+
+namespace
+{
+
+constexpr XrDuration openingLimit = 15 * second;
+
+std::atomic<uint32_t> nextSession{1};
+
+ipc::Header headerOf(const Request &request)
+{
+	return std::visit([](const auto &message) { return message.header; }, request);
+}
+
+} // namespace
+
+Client::Client(ipc::Socket socket, World &world)
+	: world_(world),
+	  socket_(std::move(socket)),
+	  peerPid_(uint32_t(ipc::peerOf(socket_).pid)),
+	  page_(std::make_shared<ipc::SharedPage<ipc::ClientPage>>("arift-client")),
+	  thread_([this](std::stop_token stop) { serve(stop); })
+{
+}
+
+Client::~Client()
+{
+	thread_.request_stop();
+	socket_.hangUp();
+}
+
+void Client::refuse(const ipc::Header &request, XrResult result, const std::string &text)
+{
+	ipc::Failed failed;
+	failed.result = result;
+	ipc::copyText(failed.text, text);
+	reply(request, failed);
+}
+
+void Client::serve(std::stop_token stop)
+{
+	ipc::Received received;
+	try {
+		while (!stop.stop_requested()) {
+			const ipc::Transfer transfer = socket_.receive(received, realTime() + second);
+			if (transfer == ipc::Transfer::hungUp) break;
+			if (transfer == ipc::Transfer::malformed) throw Malformed("message longer than {} bytes", ipc::maxMessageSize);
+			if (transfer == ipc::Transfer::done) answer(decodeRequest(received));
+		}
+	} catch (const Malformed &problem) {
+		log::warning("client {} is disconnected: {}", peerPid_, problem.what());
+	} catch (const std::exception &problem) {
+		log::error("client {} is disconnected: {}", peerPid_, problem.what());
+	}
+	socket_.hangUp();
+	stopSession();
+	swapchains_.reset();
+	if (application_) world_.applications.forget(**page_);
+	finished_ = true;
+}
+
+void Client::answer(const Request &request)
+{
+	const bool isHello = std::holds_alternative<ipc::Hello>(request);
+	if (isHello == greeted_) throw Malformed("{}", greeted_ ? "a second hello" : "a request before hello");
+	try {
+		std::visit([this](const auto &message) { answer(message); }, request);
+	} catch (const Refused &problem) {
+		log::debug("client {}: {}", peerPid_, problem.what());
+		refuse(headerOf(request), problem.result, problem.what());
+	} catch (const std::runtime_error &problem) {
+		if (dynamic_cast<const Malformed *>(&problem)) throw;
+		log::warning("client {}: {}", peerPid_, problem.what());
+		refuse(headerOf(request), XR_ERROR_RUNTIME_FAILURE, problem.what());
+	}
+}
+
+void Client::answer(const ipc::Hello &message)
+{
+	greeted_ = true;
+	about_.update([&](About &about) { about = About{peerPid_, ipc::textOf(message.applicationName), nullptr}; });
+	if (message.protocol != ipc::protocol) {
+		refuse(message.header, XR_ERROR_RUNTIME_UNAVAILABLE,
+			   fmt::format("this library ({}) speaks protocol {}, the running service ({}) speaks {}: restart the service (arift stop)",
+						   ipc::textOf(message.build), message.protocol, buildId, ipc::protocol));
+		socket_.hangUp();
+		return;
+	}
+	application_ = message.role == ipc::Role::application;
+	const Opened opened = world_.await(Stage::identified, openingLimit);
+	if (application_) world_.applications.introduce(**page_);
+	const std::array fds{world_.system.fd(), world_.poses.fd(), page_->fd()};
+	reply(message.header, opened.welcome, std::span(fds).first(application_ ? 3 : 2));
+}
+
+void Client::answer(const ipc::CreateSession &message)
+{
+	if (session_) throw Refused(XR_ERROR_LIMIT_REACHED, "an instance may have one session at a time");
+	const Opened opened = world_.await(Stage::ready, openingLimit);
+	if (!message.headless &&
+		(message.deviceUuid != opened.device->identity().deviceUuid || message.driverUuid != opened.device->identity().driverUuid))
+		throw Refused(XR_ERROR_GRAPHICS_DEVICE_INVALID,
+					  fmt::format("the application draws on another GPU than the service, which uses {}", opened.device->identity().name));
+	compositor_ = opened.compositor;
+	if (!swapchains_) swapchains_ = std::make_unique<Swapchains>(*compositor_);
+	auto [ours, theirs] = ipc::Socket::pair();
+	const uint32_t number = nextSession++;
+	session_ = std::make_shared<Session>(
+		number, world_.clock, std::move(ours), [this](uint32_t swapchain) { return swapchains_->find(swapchain); }, page_,
+		[this](const std::string &problem) {
+			log::warning("client {} is disconnected: {}", peerPid_, problem);
+			socket_.hangUp();
+		});
+	about_.update([&](About &about) { about.session = session_; });
+	const int fd = theirs.fd();
+	ipc::SessionCreated created;
+	created.session = number;
+	reply(message.header, created, {&fd, 1});
+}
+
+Session &Client::sessionNumbered(uint32_t number)
+{
+	if (!session_ || session_->number() != number) throw Malformed("unknown session {}", number);
+	return *session_;
+}
+
+void Client::stopSession()
+{
+	if (!session_) return;
+	session_->close();
+	compositor_->removeSource(*session_);
+	world_.applications.end(**page_, session_->number(), world_.clock.now());
+	about_.update([](About &about) { about.session.reset(); });
+	session_.reset(); // the compositor may hold the closed session for the rest of its frame
+}
+
+void Client::answer(const ipc::DestroySession &message)
+{
+	sessionNumbered(message.session);
+	stopSession();
+	swapchains_->destroyAll();
+	reply(message.header, ipc::Done{});
+}
+
+void Client::answer(const ipc::SessionRunning &message)
+{
+	Session &session = sessionNumbered(message.session);
+	session.setRunning(message.running != 0);
+	if (message.running) {
+		compositor_->addSource(session_);
+		world_.applications.begin(**page_, session.number(), world_.clock.now());
+	} else {
+		compositor_->removeSource(session);
+		world_.applications.end(**page_, session.number(), world_.clock.now());
+	}
+	reply(message.header, ipc::Done{});
+}
+
+void Client::answer(const ipc::CreateSwapchain &message)
+{
+	sessionNumbered(message.session);
+	const Swapchains::Made made = swapchains_->make(*world_.await(Stage::ready, 0).device, message.spec, message.imageCount);
+	std::vector<int> fds;
+	for (const UniqueFd &memory : made.memory) fds.push_back(memory.get());
+	ipc::SwapchainCreated created;
+	created.swapchain = made.swapchain;
+	created.imageCount = message.imageCount;
+	created.memorySize = made.memorySize;
+	created.memoryTypeIndex = made.memoryTypeIndex;
+	reply(message.header, created, fds);
+}
+
+void Client::answer(const ipc::DestroySwapchain &message)
+{
+	if (!swapchains_ || !swapchains_->destroy(message.swapchain)) throw Malformed("unknown swapchain {}", message.swapchain);
+	reply(message.header, ipc::Done{});
+}
+
+} // namespace arift

@@ -1,0 +1,71 @@
+// One connection: an application or a monitor. What it asks is decoded, checked and answered on a thread of its own.
+#pragma once
+#include "runtime/ipc/shared_memory.h"
+#include "runtime/ipc/socket.h"
+#include "runtime/service/session.h"
+#include "runtime/service/swapchains.h"
+#include "runtime/service/world.h"
+#include <atomic>
+#include <memory>
+#include <thread>
+
+namespace arift
+{
+
+/// A malformed message ends this connection and nothing else.
+class Client
+{
+public:
+	Client(ipc::Socket socket, World &world);
+	~Client();
+	Client(const Client &) = delete;
+
+	/// Its thread has ended: the object may go.
+	bool finished() const { return finished_; }
+	bool isApplication() const { return application_; }
+	void describe(nlohmann::json &list);
+
+private:
+	struct About {
+		uint32_t pid = 0;
+		std::string name;
+		std::shared_ptr<Session> session;
+	};
+
+	void serve(std::stop_token stop);
+	void answer(const Request &request);
+	void answer(const ipc::Hello &message);
+	void answer(const ipc::CreateSession &message);
+	void answer(const ipc::DestroySession &message);
+	void answer(const ipc::SessionRunning &message);
+	void answer(const ipc::CreateSwapchain &message);
+	void answer(const ipc::DestroySwapchain &message);
+	void answer(const ipc::GetStatus &message);
+	void answer(const ipc::Screenshot &message);
+	void answer(const ipc::SetSetting &message);
+	void answer(const ipc::Recenter &message);
+	void answer(const ipc::ShutDown &message);
+	template <typename Reply> void reply(const ipc::Header &request, Reply message, std::span<const int> fds = {})
+	{
+		message.header.sequence = request.sequence;
+		// Replies are small: a client that lets its socket fill up is not reading.
+		if (socket_.send(message, fds, realTime() + 2 * second) == ipc::Transfer::timeout) socket_.hangUp();
+	}
+	void refuse(const ipc::Header &request, XrResult result, const std::string &text);
+	void stopSession();
+	Session &sessionNumbered(uint32_t number);
+
+	World &world_;
+	ipc::Socket socket_;
+	const uint32_t peerPid_;
+	std::atomic<bool> finished_ = false, application_ = false;
+	bool greeted_ = false;
+	const std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page_;
+	Compositor *compositor_ = nullptr; ///< from the first session on
+	std::unique_ptr<Swapchains> swapchains_;
+	std::shared_ptr<Session> session_;
+	Guarded<About> about_{};
+	std::jthread thread_;
+};
+
+} // namespace arift

@@ -1,0 +1,98 @@
+// What monitors ask: status, pictures, settings, recentring, the end.
+#include "runtime/compositor/compositor.h"
+#include "runtime/motion/spaces.h"
+#include "runtime/service/client.h"
+#include "runtime/service/status.h"
+#include <nlohmann/json.hpp>
+
+namespace arift
+{
+
+namespace
+{
+
+constexpr XrDuration openingLimit = 15 * second, pictureLimit = 5 * second;
+
+} // namespace
+
+void Client::answer(const ipc::GetStatus &message)
+{
+	const Opened opened = world_.await(Stage::ready, openingLimit);
+	nlohmann::json status = describeService(world_.config, opened.compositor->figures(message.resetFigures != 0));
+	opened.describeHeadset(status);
+	world_.describeClients(status["clients"] = nlohmann::json::array());
+	const std::string text = status.dump();
+	const UniqueFd memory = ipc::makeSealedCopy("arift-status", std::as_bytes(std::span(text)));
+	ipc::Status answer;
+	answer.size = text.size();
+	const int fd = memory.get();
+	reply(message.header, answer, {&fd, 1});
+}
+
+void Client::answer(const ipc::Screenshot &message)
+{
+	const Opened opened = world_.await(Stage::ready, openingLimit);
+	const auto picture = opened.compositor->picture(message.kind, pictureLimit);
+	if (!picture) throw Refused(XR_ERROR_RUNTIME_FAILURE, "no image was finished within five seconds");
+	const UniqueFd memory = ipc::makeSealedCopy("arift-picture", picture->image.pixels);
+	ipc::Picture answer;
+	answer.width = picture->image.width;
+	answer.height = picture->image.height;
+	answer.displayTime = picture->displayTime;
+	const int fd = memory.get();
+	reply(message.header, answer, {&fd, 1});
+}
+
+void Client::answer(const ipc::SetSetting &message)
+{
+	const Opened opened = world_.await(Stage::ready, openingLimit);
+	if (message.setting == ipc::Setting::viewOffset) {
+		if (message.value < 0 || message.value > 1)
+			throw Refused(XR_ERROR_VALIDATION_FAILURE,
+						  fmt::format("view_offset = {}, expected a number from 0 (eye) to 1 (camera)", message.value));
+		world_.views.update([&](ipc::ViewTable &views) { views.viewOffset = message.value; });
+	} else {
+		if (message.value < 0.1f || message.value > 1000)
+			throw Refused(XR_ERROR_VALIDATION_FAILURE,
+						  fmt::format("passthrough_distance = {}, expected metres from 0.1 to 1000", message.value));
+		opened.compositor->setPassthroughDistance(double(message.value));
+	}
+	reply(message.header, ipc::Done{});
+}
+
+void Client::answer(const ipc::Recenter &message)
+{
+	world_.await(Stage::ready, openingLimit);
+	const XrTime now = world_.clock.now();
+	const HeadMotion head = PoseHistory(*world_.poses).at(now);
+	XrPosef moved = identityPose;
+	world_.views.update([&](ipc::ViewTable &views) {
+		const XrPosef before = views.localInOrigin;
+		views = recentred(views, head);
+		moved = inverse(before) * views.localInOrigin;
+	});
+	world_.applications.tellRecentered(moved, now);
+	reply(message.header, ipc::Done{});
+}
+
+void Client::answer(const ipc::ShutDown &message)
+{
+	reply(message.header, ipc::Done{});
+	world_.requestStop();
+}
+
+void Client::describe(nlohmann::json &list)
+{
+	if (!application_) return;
+	const About about = [&] { return *about_.lock(); }();
+	nlohmann::json entry{{"pid", about.pid}, {"name", about.name}, {"state", "connected"}, {"submitted", 0}, {"shown", 0}};
+	if (about.session) {
+		const Session::Count count = about.session->count();
+		entry["state"] = about.session->running() ? "running" : "idle";
+		entry["submitted"] = count.submitted;
+		entry["shown"] = count.shown;
+	}
+	list.push_back(std::move(entry));
+}
+
+} // namespace arift

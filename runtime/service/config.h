@@ -1,0 +1,40 @@
+// What a person decides about the service: the configuration file, and what the command line puts above it.
+#pragma once
+#include "runtime/base/xr.h"
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace arift
+{
+
+enum class ClockMode { real, scaled, stepped };
+enum class TargetKind { automatic, offscreen, window };
+
+struct Config {
+	std::filesystem::path file; ///< what drivers read their own tables from: the file with overrides merged in; may be empty
+
+	std::string driver = "auto";                   ///< [headset] driver
+	std::string rig = "arift";                     ///< [headset] rig: a name in calib/rigs, a path, or "recording"
+	std::filesystem::path recording;               ///< [replay] recording, where the driver is "replay"
+	ClockMode clock = ClockMode::real;             ///< [clock] mode
+	double rate = 1;                               ///< [clock] rate, scaled only
+	double passthroughDistance = 2;                ///< [passthrough] distance, metres
+	double viewOffset = 1;                         ///< [passthrough] view_offset, 0 eye .. 1 camera
+	std::vector<XrEnvironmentBlendMode> blendModes{///< [passthrough] blend_modes, the favourite first
+												   XR_ENVIRONMENT_BLEND_MODE_OPAQUE, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND,
+												   XR_ENVIRONMENT_BLEND_MODE_ADDITIVE};
+	TargetKind target = TargetKind::automatic; ///< [compositor] target
+};
+
+/// Where the configuration is looked for: `given`, else $ARIFT_CONFIG, else config.toml in the configuration directory if it is there.
+std::filesystem::path findConfig(const std::filesystem::path &given);
+
+/// Reads `file` (may be empty: everything at its default) with `overrides` ("clock.mode=stepped", values as in TOML, quotes optional) above
+/// it. Throws InputError with file, line, value and what was expected; unknown keys are errors. Where there are overrides, the merged file
+/// is written to `mergedFile` for the drivers.
+Config readConfig(const std::filesystem::path &file, const std::vector<std::string> &overrides, const std::filesystem::path &mergedFile);
+
+const char *nameOf(ClockMode mode);
+
+} // namespace arift

@@ -1,0 +1,160 @@
+#include "runtime/service/decode.h"
+#include "runtime/base/pose.h"
+#include <cmath>
+#include <numbers>
+
+namespace arift
+{
+
+namespace
+{
+
+template <typename M> M exactly(const ipc::Received &received)
+{
+	if (const auto message = received.as<M>()) return *message;
+	throw Malformed("message {} has {} bytes, expected {}", uint32_t(M::type), received.size, sizeof(M));
+}
+
+void require(bool fulfilled, const char *what)
+{
+	if (!fulfilled) throw Malformed("{}", what);
+}
+
+void check(const ipc::Hello &hello)
+{
+	require(hello.magic == ipc::magic, "hello without the magic number");
+	require(hello.role <= ipc::Role::monitor, "hello of an unknown role");
+}
+void check(const ipc::CreateSession &) {}
+void check(const ipc::DestroySession &) {}
+void check(const ipc::SessionRunning &message) { require(message.running <= 1, "session running: neither begin nor end"); }
+void check(const ipc::CreateSwapchain &message)
+{
+	const gpu::ImageSpec &spec = message.spec;
+	require(message.imageCount >= 1 && message.imageCount <= ipc::maxImages, "swapchain: number of images out of range");
+	require(spec.width >= 1 && spec.width <= Quota::extent && spec.height >= 1 && spec.height <= Quota::extent,
+			"swapchain: extent out of range");
+	require(spec.arrayLayers >= 1 && spec.arrayLayers <= 64, "swapchain: number of array layers out of range");
+	require(spec.mipLevels >= 1 && spec.mipLevels <= 14, "swapchain: number of mip levels out of range");
+	require(spec.samples >= 1 && spec.samples <= 16 && (spec.samples & (spec.samples - 1)) == 0, "swapchain: sample count out of range");
+}
+void check(const ipc::DestroySwapchain &) {}
+void check(const ipc::GetStatus &message) { require(message.resetFigures <= 1, "status: reset is neither yes nor no"); }
+void check(const ipc::Screenshot &message) { require(message.kind <= ipc::PictureKind::eyes, "screenshot of an unknown kind"); }
+void check(const ipc::SetSetting &message)
+{
+	require(message.setting <= ipc::Setting::passthroughDistance, "unknown setting");
+	require(std::isfinite(message.value), "setting is not a number");
+}
+void check(const ipc::Recenter &) {}
+void check(const ipc::ShutDown &) {}
+
+template <typename M> M checked(const ipc::Received &received)
+{
+	const M message = exactly<M>(received);
+	check(message);
+	return message;
+}
+
+void checkImage(const ipc::SubImage &image, const FindSwapchain &find)
+{
+	const auto shape = find(image.swapchain);
+	require(shape.has_value(), "layer names an unknown swapchain");
+	require(image.image < shape->imageCount, "layer names an image its swapchain has not");
+	require(image.arrayIndex < shape->arrayLayers, "layer names an array layer its swapchain has not");
+	require(image.x >= 0 && image.y >= 0 && image.width > 0 && image.height > 0, "layer rectangle is empty or begins outside");
+	// 64-bit sums: two large positive numbers must not wrap round to a small one.
+	require(int64_t(image.x) + image.width <= int64_t(shape->width) && int64_t(image.y) + image.height <= int64_t(shape->height),
+			"layer rectangle reaches beyond its image");
+}
+
+/// OpenXR 1.1, XrFovf: angles of a half space each; a view without extent shows nothing and divides by nothing.
+void checkFov(const XrFovf &fov)
+{
+	constexpr float limit = float(std::numbers::pi / 2);
+	for (const float angle : {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown})
+		require(std::isfinite(angle) && std::abs(angle) < limit, "layer field of view out of range");
+	require(fov.angleLeft != fov.angleRight && fov.angleUp != fov.angleDown, "layer field of view is empty");
+}
+
+void checkPose(const XrPosef &pose)
+{
+	require(isValidPose(pose), "layer pose is invalid");
+	require(std::abs(pose.position.x) < 1e6f && std::abs(pose.position.y) < 1e6f && std::abs(pose.position.z) < 1e6f,
+			"layer pose is too far away");
+}
+
+void checkLayer(const ipc::Layer &layer, const FindSwapchain &find)
+{
+	require(layer.type <= ipc::LayerType::quad, "layer of an unknown type");
+	require(layer.frame <= ipc::LayerFrame::head, "layer in an unknown frame");
+	require(layer.eyes <= 3, "layer for unknown eyes");
+	if (layer.type == ipc::LayerType::projection) {
+		for (const ipc::LayerView &view : layer.views) {
+			checkPose(view.pose);
+			checkFov(view.fov);
+			checkImage(view.image, find);
+		}
+		return;
+	}
+	checkPose(layer.views[0].pose);
+	checkImage(layer.views[0].image, find);
+	for (const float extent : {layer.width, layer.height})
+		require(std::isfinite(extent) && extent >= 0 && extent < 1e6f, "quad extent out of range");
+}
+
+ipc::Submission decodeSubmission(const ipc::Received &received, const FindSwapchain &find)
+{
+	constexpr size_t fixed = offsetof(ipc::Submission, layers);
+	require(received.size >= fixed, "submission is too short");
+	ipc::Submission submission;
+	std::memcpy(static_cast<void *>(&submission), received.bytes.data(), fixed);
+	require(submission.layerCount <= ipc::maxLayers, "submission has too many layers");
+	require(received.size == ipc::wireSize(submission), "submission is not as long as its layers");
+	std::memcpy(static_cast<void *>(submission.layers.data()), received.bytes.data() + fixed, submission.layerCount * sizeof(ipc::Layer));
+	require(submission.blendMode >= XR_ENVIRONMENT_BLEND_MODE_OPAQUE && submission.blendMode <= XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND,
+			"submission with an unknown blend mode");
+	for (uint32_t i = 0; i < submission.layerCount; ++i) checkLayer(submission.layers[i], find);
+	return submission;
+}
+
+ipc::Header headerOf(const ipc::Received &received)
+{
+	const auto header = received.header();
+	require(header.has_value(), "message is shorter than a header");
+	return *header;
+}
+
+} // namespace
+
+Request decodeRequest(const ipc::Received &received)
+{
+	using enum ipc::MessageType;
+	switch (headerOf(received).type) {
+	case hello: return checked<ipc::Hello>(received);
+	case createSession: return checked<ipc::CreateSession>(received);
+	case destroySession: return checked<ipc::DestroySession>(received);
+	case sessionRunning: return checked<ipc::SessionRunning>(received);
+	case createSwapchain: return checked<ipc::CreateSwapchain>(received);
+	case destroySwapchain: return checked<ipc::DestroySwapchain>(received);
+	case getStatus: return checked<ipc::GetStatus>(received);
+	case screenshot: return checked<ipc::Screenshot>(received);
+	case setSetting: return checked<ipc::SetSetting>(received);
+	case recenter: return checked<ipc::Recenter>(received);
+	case shutDown: return checked<ipc::ShutDown>(received);
+	default: throw Malformed("message of unknown type {}", uint32_t(headerOf(received).type));
+	}
+}
+
+FrameRequest decodeFrameRequest(const ipc::Received &received, const FindSwapchain &find)
+{
+	using enum ipc::MessageType;
+	switch (headerOf(received).type) {
+	case waitFrame: return exactly<ipc::WaitFrame>(received);
+	case relinquish: return exactly<ipc::Relinquish>(received);
+	case submission: return decodeSubmission(received, find);
+	default: throw Malformed("message of unknown type {} in the frame channel", uint32_t(headerOf(received).type));
+	}
+}
+
+} // namespace arift

@@ -1,0 +1,49 @@
+// arift-service: listens first, opens the headset after, serves clients until it is asked to stop or nobody is left.
+#pragma once
+#include "runtime/ipc/listener.h"
+#include "runtime/service/client.h"
+#include "runtime/service/config.h"
+#include "runtime/service/world.h"
+#include <list>
+#include <memory>
+#include <optional>
+
+namespace arift
+{
+
+/// Everything that is open: GPU, devices, compositor. In the order in which one needs the other.
+class System;
+
+class Service
+{
+public:
+	struct Options {
+		Config config;
+		std::optional<XrDuration> idleExit; ///< leave after so long without clients (real time)
+	};
+	Service(Options options, ipc::Listener &listener);
+	~Service();
+	Service(const Service &) = delete;
+
+	/// Serves until stop(); says why it ended by itself: empty where it was asked to, or nobody was left.
+	std::string run();
+	/// Thread-safe, and safe in a signal handler's thread.
+	void stop();
+
+private:
+	void open();
+	void removeFinished();
+	bool mayLeave();
+
+	const Options options_;
+	ipc::Listener &listener_;
+	std::unique_ptr<Clock> clock_;
+	World world_;
+	std::atomic<bool> stopping_ = false;
+	std::unique_ptr<System> system_; ///< made by opener_; read elsewhere once world_.opened says so
+	Guarded<std::list<Client>> clients_{};
+	XrTime lastSeen_ = 0; ///< real: when the newest client was there
+	std::jthread opener_;
+};
+
+} // namespace arift

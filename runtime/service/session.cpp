@@ -1,0 +1,175 @@
+#include "runtime/service/session.h"
+#include "runtime/service/layers.h"
+
+namespace arift
+{
+
+Session::Session(uint32_t number, Clock &clock, ipc::Socket channel, FindSwapchain find,
+				 std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page, std::function<void(const std::string &)> onMalformed)
+	: number_(number),
+	  clock_(clock),
+	  channel_(std::move(channel)),
+	  find_(std::move(find)),
+	  page_(std::move(page)),
+	  onMalformed_(std::move(onMalformed)),
+	  thread_([this](std::stop_token stop) { serve(stop); })
+{
+}
+
+Session::~Session() { close(); }
+
+void Session::close()
+{
+	thread_.request_stop();
+	channel_.hangUp();
+	if (thread_.joinable()) thread_.join();
+}
+
+void Session::finish(Afterwards &afterwards)
+{
+	// A full or dead channel is its reader's loss: the compositor never waits for an application.
+	if (afterwards.ready) channel_.send(*afterwards.ready, 0);
+	afterwards.released.reset();
+}
+
+ipc::FrameReady Session::answer(State &state)
+{
+	ipc::FrameReady ready;
+	ready.header.sequence = state.announced;
+	ready.predictedDisplayTime = state.current.displayTime;
+	ready.predictedDisplayPeriod = state.current.period;
+	ready.shouldRender = state.running;
+	state.waiting = false;
+	state.answered = state.current.displayTime;
+	return ready;
+}
+
+void Session::releaseIfComplete(State &state, Afterwards &afterwards)
+{
+	const bool complete = int32_t(uint32_t(state.received) - state.announced) >= 0;
+	if (state.waiting && complete) afterwards.released = std::exchange(state.hold, std::nullopt);
+}
+
+void Session::setRunning(bool running)
+{
+	Afterwards afterwards;
+	state_.update([&](State &state) {
+		state.running = running;
+		if (running) return;
+		state.newest.reset();
+		if (state.waiting) afterwards.ready = answer(state);
+		afterwards.released = std::exchange(state.hold, std::nullopt);
+	});
+	finish(afterwards);
+}
+
+bool Session::running() { return state_.lock()->running; }
+
+Session::Count Session::count()
+{
+	const auto state = state_.lock();
+	return {state->received, state->shown};
+}
+
+void Session::wake(const Opportunity &opportunity)
+{
+	std::optional<Clock::Hold> hold(clock_);
+	Afterwards afterwards;
+	state_.update([&](State &state) {
+		state.current = opportunity;
+		if (!state.waiting || opportunity.displayTime <= state.answered) return;
+		afterwards.ready = answer(state);
+		state.hold.swap(hold);
+		state.holdSince = realTime();
+	});
+	finish(afterwards);
+}
+
+std::shared_ptr<const FrameContent> Session::content() { return state_.lock()->newest; }
+
+void Session::shown(const std::shared_ptr<const FrameContent> &content)
+{
+	uint64_t oldestHeld = 0;
+	state_.update([&](State &state) {
+		if (content && content->frame > state.newestShown) {
+			state.newestShown = content->frame;
+			state.shown++;
+		}
+		// Without content nothing is held: what comes next is newer than all that came.
+		oldestHeld = content ? content->frame : std::max(state.newestShown, state.relinquished) + 1;
+	});
+	(*page_)->oldestHeldFrame.store(oldestHeld, std::memory_order_release);
+}
+
+void Session::take(const ipc::WaitFrame &message)
+{
+	const XrTime now = clock_.now();
+	const bool stepped = clock_.anchor().rate == 0;
+	Afterwards afterwards;
+	state_.update([&](State &state) {
+		state.waiting = true;
+		state.announced = message.header.sequence;
+		// An application slower than the display need not wait for the next wake when there is still time for the newest opportunity.
+		const bool inTime = state.current.displayTime > state.answered && now + state.current.period / 4 < state.current.latch;
+		if (!stepped && inTime) afterwards.ready = answer(state);
+		releaseIfComplete(state, afterwards);
+	});
+	finish(afterwards);
+}
+
+void Session::take(const ipc::Submission &message)
+{
+	Afterwards afterwards;
+	std::shared_ptr<const FrameContent> content = contentOf(message), before;
+	bool late = false;
+	state_.update([&](State &state) {
+		late = message.frame <= state.received;
+		if (late) return;
+		state.received = message.frame;
+		if (message.frame > state.relinquished) before = std::exchange(state.newest, content);
+		releaseIfComplete(state, afterwards);
+	});
+	finish(afterwards);
+	if (late) throw Malformed("submission {} comes after a later one", message.frame);
+}
+
+void Session::take(const ipc::Relinquish &message)
+{
+	std::shared_ptr<const FrameContent> before;
+	state_.update([&](State &state) {
+		state.relinquished = std::max(state.relinquished, message.frame);
+		if (state.newest && state.newest->frame <= message.frame) before = std::exchange(state.newest, nullptr);
+	});
+}
+
+void Session::dropOldHold()
+{
+	Afterwards afterwards;
+	state_.update([&](State &state) {
+		if (state.hold && realTime() - state.holdSince > longestHold) afterwards.released = std::exchange(state.hold, std::nullopt);
+	});
+	if (afterwards.released && clock_.anchor().rate == 0)
+		log::warning("session {} has not gone on with its frame for {} s: the stepped clock goes on without it", number_,
+					 longestHold / second);
+	finish(afterwards);
+}
+
+void Session::serve(std::stop_token stop)
+{
+	ipc::Received received;
+	try {
+		while (!stop.stop_requested()) {
+			const ipc::Transfer transfer = channel_.receive(received, realTime() + second / 2);
+			if (transfer == ipc::Transfer::hungUp) break;
+			if (transfer == ipc::Transfer::malformed) throw Malformed("message longer than {} bytes", ipc::maxMessageSize);
+			if (transfer == ipc::Transfer::done)
+				std::visit([this](const auto &message) { take(message); }, decodeFrameRequest(received, find_));
+			dropOldHold();
+		}
+	} catch (const Malformed &problem) {
+		onMalformed_(problem.what());
+	}
+	setRunning(false);
+}
+
+} // namespace arift

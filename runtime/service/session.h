@@ -1,0 +1,85 @@
+// One application's session: its frame channel, the newest thing it wants shown, and its hold on a stepped clock.
+#pragma once
+#include "runtime/base/clock.h"
+#include "runtime/base/guarded.h"
+#include "runtime/compositor/frame_source.h"
+#include "runtime/ipc/pages.h"
+#include "runtime/ipc/shared_memory.h"
+#include "runtime/ipc/socket.h"
+#include "runtime/service/decode.h"
+#include <functional>
+#include <thread>
+
+namespace arift
+{
+
+/// The frame channel has a thread of its own. A message that is malformed ends the session through `onMalformed` (called once, on that
+/// thread).
+///
+/// Stepped clock: from FrameReady on the session holds the clock, until its next WaitFrame has come and with it every submission announced
+/// so far (WaitFrame.header.sequence counts the application's xrEndFrame calls), or five seconds of real time have passed.
+class Session final : public FrameSource
+{
+public:
+	static constexpr XrDuration longestHold = 5 * second;
+
+	Session(uint32_t number, Clock &clock, ipc::Socket channel, FindSwapchain find, std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page,
+			std::function<void(const std::string &)> onMalformed);
+	~Session() override;
+
+	/// Hangs up and ends the thread: from here on only the compositor's calls are allowed, and nothing is shown.
+	void close();
+
+	uint32_t number() const { return number_; }
+	/// xrBeginSession and xrEndSession. An application that waits for a frame when its session ends is told not to draw.
+	void setRunning(bool running);
+	bool running();
+	struct Count {
+		uint64_t submitted = 0, shown = 0;
+	};
+	Count count();
+
+	void wake(const Opportunity &opportunity) override;
+	std::shared_ptr<const FrameContent> content() override;
+	void shown(const std::shared_ptr<const FrameContent> &content) override;
+
+private:
+	struct State {
+		bool running = false;
+		bool waiting = false;      ///< a WaitFrame is unanswered
+		uint32_t announced = 0;    ///< submissions the application had made when it last waited
+		uint64_t received = 0;     ///< number of the newest submission that came
+		uint64_t relinquished = 0; ///< submissions up to this one are not to be shown any more
+		uint64_t shown = 0, newestShown = 0;
+		std::shared_ptr<const FrameContent> newest;
+		Opportunity current; ///< the newest one the compositor announced
+		XrTime answered = 0; ///< display time of the newest FrameReady
+		std::optional<Clock::Hold> hold;
+		XrTime holdSince = 0; ///< real
+	};
+	/// What is left to do when the lock is gone: an answer to send, a hold to let go of.
+	struct Afterwards {
+		std::optional<ipc::FrameReady> ready;
+		std::optional<Clock::Hold> released;
+	};
+
+	void serve(std::stop_token stop);
+	void take(const ipc::WaitFrame &message);
+	void take(const ipc::Submission &message);
+	void take(const ipc::Relinquish &message);
+	void dropOldHold();
+	void finish(Afterwards &afterwards);
+	static void releaseIfComplete(State &state, Afterwards &afterwards);
+	static ipc::FrameReady answer(State &state);
+
+	const uint32_t number_;
+	Clock &clock_;
+	ipc::Socket channel_;
+	const FindSwapchain find_;
+	const std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page_;
+	const std::function<void(const std::string &)> onMalformed_;
+	Guarded<State> state_;
+	std::jthread thread_;
+};
+
+} // namespace arift

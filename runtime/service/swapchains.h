@@ -1,0 +1,56 @@
+// A client's swapchains: their images on the service's GPU, and what submissions are checked against.
+#pragma once
+#include "runtime/base/guarded.h"
+#include "runtime/gpu/device.h"
+#include "runtime/service/decode.h"
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace arift
+{
+
+class Compositor;
+
+/// An image's key for the renderer. Swapchain numbers are never used twice while the service lives, so neither are keys.
+constexpr uint64_t imageKey(uint32_t swapchain, uint32_t image) { return uint64_t(swapchain) * ipc::maxImages + image; }
+
+/// Thread-safe: the client's thread makes and destroys, its frame channel's thread finds.
+class Swapchains
+{
+public:
+	explicit Swapchains(Compositor &compositor) : compositor_(&compositor) {}
+	/// Takes every image away from the compositor.
+	~Swapchains();
+	Swapchains(const Swapchains &) = delete;
+
+	/// Images all like `spec`, cleared, told to the compositor; one memory descriptor each. Throws ipc-level refusals as Refused.
+	struct Made {
+		uint32_t swapchain = 0;
+		uint64_t memorySize = 0;
+		uint32_t memoryTypeIndex = 0;
+		std::vector<UniqueFd> memory;
+	};
+	Made make(gpu::Device &device, const gpu::ImageSpec &spec, uint32_t imageCount);
+	/// Says whether there was such a swapchain.
+	bool destroy(uint32_t swapchain);
+	void destroyAll();
+	std::optional<SwapchainShape> find(uint32_t swapchain);
+	uint64_t bytes();
+
+private:
+	struct Swapchain {
+		SwapchainShape shape;
+		uint64_t bytes = 0;
+	};
+	Compositor *compositor_;
+	Guarded<std::map<uint32_t, Swapchain>> swapchains_;
+};
+
+/// A request that is understood and cannot be met: its result and sentence go back to the client, which stays connected.
+struct Refused : std::runtime_error {
+	Refused(XrResult code, const std::string &text) : std::runtime_error(text), result(code) {}
+	XrResult result;
+};
+
+} // namespace arift

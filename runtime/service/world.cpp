@@ -1,0 +1,17 @@
+#include "runtime/service/world.h"
+#include "runtime/service/swapchains.h"
+
+namespace arift
+{
+
+Opened World::await(Stage stage, XrDuration limit)
+{
+	auto access = opened.lock();
+	const bool settled = access.waitFor({}, std::chrono::nanoseconds(limit), [&](const Opened &now) { return now.stage >= stage; });
+	if (!settled) throw Refused(XR_ERROR_RUNTIME_UNAVAILABLE, "arift-service has not opened its headset yet; its log says how far it is");
+	if (access->stage == Stage::failed) throw Refused(XR_ERROR_RUNTIME_UNAVAILABLE, access->problem);
+	if (access->stage == Stage::stopping) throw Refused(XR_ERROR_RUNTIME_UNAVAILABLE, "arift-service is being stopped");
+	return *access;
+}
+
+} // namespace arift

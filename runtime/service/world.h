@@ -1,0 +1,74 @@
+// What all clients share: the pages, who runs, and the devices once they are open.
+#pragma once
+#include "runtime/base/clock.h"
+#include "runtime/base/guarded.h"
+#include "runtime/gpu/device.h"
+#include "runtime/ipc/messages.h"
+#include "runtime/ipc/shared_memory.h"
+#include "runtime/motion/pose_history.h"
+#include "runtime/service/applications.h"
+#include "runtime/service/config.h"
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace arift
+{
+
+class Compositor;
+
+/// Where views and spaces are: the service's copy, published as a whole with every change. Thread-safe.
+class Views
+{
+public:
+	explicit Views(ipc::SystemPage &page) : page_(page) {}
+	template <typename Change> void update(Change change)
+	{
+		table_.update([&](ipc::ViewTable &table) {
+			change(table);
+			page_.views.write(table);
+		});
+	}
+
+private:
+	ipc::SystemPage &page_;
+	Guarded<ipc::ViewTable> table_{};
+};
+
+/// How far the service has come since it listens.
+enum class Stage {
+	opening,
+	identified /**< GPU and Rig are known: Hello can be answered */,
+	ready /**< images are composed */,
+	failed,
+	stopping
+};
+
+struct Opened {
+	Stage stage = Stage::opening;
+	std::string problem;              ///< failed: one sentence
+	ipc::Welcome welcome;             ///< from identified on
+	gpu::Device *device = nullptr;    ///< from identified on
+	Compositor *compositor = nullptr; ///< from ready on
+	/// From ready on: headset, cameras and tracker as `arift status` shows them.
+	std::function<void(nlohmann::json &)> describeHeadset;
+};
+
+struct World {
+	World(const Config &configuration, Clock &systemClock) : config(configuration), clock(systemClock) {}
+	const Config &config;
+	Clock &clock;
+	ipc::SharedPage<ipc::SystemPage> system{"arift-system"};
+	ipc::SharedPage<PoseRing> poses{"arift-poses"};
+	Views views{*system};
+	Applications applications;
+	Guarded<Opened> opened{};
+	std::function<void()> requestStop;
+	/// One line per client for `arift status`.
+	std::function<void(nlohmann::json &)> describeClients;
+
+	/// Waits until the service has come to `stage`, at most `limit` of real time. Throws Refused with the reason where it does not.
+	Opened await(Stage stage, XrDuration limit);
+};
+
+} // namespace arift
