@@ -72,7 +72,7 @@ float sourceLight(const glm::vec3 &source, const glm::vec3 &direction, const glm
 }
 
 /// Daylight through the window, a lamp, what the walls return, and darkness where things touch.
-glm::vec3 light(const glm::vec3 &point, const glm::vec3 &normal, std::span<const Box> near, const Box *own)
+glm::vec3 light(const glm::vec3 &point, const glm::vec3 &normal, std::span<const Box> near)
 {
 	const glm::vec3 daylight{0.97f, 1.0f, 1.06f}, lamplight{1.08f, 1.0f, 0.86f};
 	glm::vec3 sum = glm::vec3(0.40f + 0.05f * normal.y + 0.05f * normal.z);
@@ -80,7 +80,6 @@ glm::vec3 light(const glm::vec3 &point, const glm::vec3 &normal, std::span<const
 	sum += lamplight * sourceLight(lampCentre, {0, -1, 0}, point, normal, 1.0f);
 	float open = 1;
 	for (const Box &box : near) {
-		if (&box == own) continue;
 		const float reach = std::max(0.0f, 1 - distanceTo(box, point) / 0.28f);
 		open *= 1 - 0.5f * reach * reach;
 	}
@@ -91,6 +90,8 @@ glm::vec3 light(const glm::vec3 &point, const glm::vec3 &normal, std::span<const
 	}
 	return sum * open * exposure;
 }
+
+constexpr uint32_t cell = 8; // texels
 
 class RoomPainter
 {
@@ -128,13 +129,32 @@ private:
 		point[axis] = isHigh ? box.high[axis] : box.low[axis];
 		normal[axis] = (isHigh ? 1.0f : -1.0f) * (own ? 1.0f : -1.0f);
 		const std::vector<Box> near = boxesNear(box, axis, point[axis], own);
-		for (uint32_t row = 0; row < surface.height; row++)
+		const auto place = [&](uint32_t column, uint32_t row) {
+			point[first] = box.low[first] + (float(column) + 0.5f) / density;
+			point[second] = box.low[second] + (float(row) + 0.5f) / density;
+		};
+		// Light changes slowly: it is worked out at the corners of cells and interpolated between them.
+		const uint32_t cells = surface.width / cell + 2;
+		std::vector<glm::vec3> above(cells), below(cells);
+		const auto lightRow = [&](uint32_t row) {
+			std::swap(above, below);
+			for (uint32_t i = 0; i < cells; i++) {
+				place(i * cell, row);
+				below[i] = light(point, normal, near);
+			}
+		};
+		lightRow(0);
+		for (uint32_t row = 0; row < surface.height; row++) {
+			if (row % cell == 0) lightRow(row + cell);
 			for (uint32_t column = 0; column < surface.width; column++) {
-				point[first] = box.low[first] + (float(column) + 0.5f) / density;
-				point[second] = box.low[second] + (float(row) + 0.5f) / density;
-				const glm::vec3 seen = paint({point[first], point[second]}) * light(point, normal, near, nullptr);
+				const uint32_t i = column / cell;
+				const float along = float(column % cell) / cell, down = float(row % cell) / cell;
+				const glm::vec3 lit = glm::mix(glm::mix(above[i], above[i + 1], along), glm::mix(below[i], below[i + 1], along), down);
+				place(column, row);
+				const glm::vec3 seen = paint({point[first], point[second]}) * lit;
 				for (int c = 0; c < 3; c++) scene_.atlas[size_t(c)].push_back(uint8_t(std::clamp(seen[c], 0.0f, 1.0f) * 255 + 0.5f));
 			}
+		}
 	}
 
 	/// Those that can darken a face: within reach of its plane and its extent.
