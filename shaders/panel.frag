@@ -24,22 +24,27 @@ layout(set = 1, binding = 1) uniform sampler2DArray layerTexture;
 layout(location = 0, index = 0) out vec4 light;
 layout(location = 0, index = 1) out vec4 cover;              // for blending over what is there already
 
-float coefficient(const vec4 values[4], int i) { return values[i / 4][i % 4]; }
+// Horner's rule over 16 coefficients in four vectors, written out: a loop over them would cost a software renderer an address per step.
+#define ARIFT_TERM(sum, x, values, count, i) if (count > (i)) sum = sum * x + values[(i) / 4][(i) % 4];
+#define ARIFT_FOUR_TERMS(sum, x, values, count, i) \
+	ARIFT_TERM(sum, x, values, count, i + 3) ARIFT_TERM(sum, x, values, count, i + 2) \
+	ARIFT_TERM(sum, x, values, count, i + 1) ARIFT_TERM(sum, x, values, count, i)
+#define ARIFT_POLYNOMIAL(sum, x, values, count) \
+	ARIFT_FOUR_TERMS(sum, x, values, count, 12) ARIFT_FOUR_TERMS(sum, x, values, count, 8) \
+	ARIFT_FOUR_TERMS(sum, x, values, count, 4) ARIFT_FOUR_TERMS(sum, x, values, count, 0)
 
 float stretch(float r2)
 {
-	float d = coefficient(eye.distortion, distortionCoefficients - 1);
-	for (int i = distortionCoefficients - 2; i >= 0; --i) d = d * r2 + coefficient(eye.distortion, i);
+	float d = 0.0;
+	ARIFT_POLYNOMIAL(d, r2, eye.distortion, distortionCoefficients)
 	return d;
 }
 
 /// How each colour's tangents compare with green's, and how red's texel follows from green's and blue's.
 struct Chromatic { float red, blue, redFromBlue; };
 
-mat3 atLine(MatrixByLine m, float s)
-{
-	return mat3(m.first[0].xyz + s * m.change[0].xyz, m.first[1].xyz + s * m.change[1].xyz, m.first[2].xyz + s * m.change[2].xyz);
-}
+#define ARIFT_AT_LINE(m, s) \
+	mat3(m.first[0].xyz + s * m.change[0].xyz, m.first[1].xyz + s * m.change[1].xyz, m.first[2].xyz + s * m.change[2].xyz)
 
 // ---- camera
 
@@ -51,8 +56,8 @@ float radial(float cosine)
 		return textureLod(angleTable, vec2((at * last + 0.5) / (last + 1.0), 0.5), 0.0).r;
 	}
 	const float x = (cosine - eye.centre.z) * eye.centre.w;
-	float g = coefficient(eye.g, cameraCoefficients - 1);
-	for (int i = cameraCoefficients - 2; i >= 0; --i) g = g * x + coefficient(eye.g, i);
+	float g = 0.0;
+	ARIFT_POLYNOMIAL(g, x, eye.g, cameraCoefficients)
 	return g;
 }
 
@@ -108,7 +113,7 @@ vec3 behindLayers(vec2 tangents, Chromatic chromatic, float s, float r2)
 	if (background == backgroundNone) return vec3(0.0);
 	// The fill darkens towards the rim, so that the field of view has no hard frame.
 	const vec3 fill = eye.fill.rgb * (1.0 - 0.6 * r2 * eye.circle.z);
-	const mat3 m = atLine(eye.camera, s);
+	const mat3 m = ARIFT_AT_LINE(eye.camera, s);
 	const vec3 across = m[0] * tangents.x + m[1] * tangents.y;
 	const vec3 q = m[2] + across;
 	if (background == backgroundPattern) {
@@ -136,7 +141,7 @@ vec4 layerTexel(vec2 uv, float w)
 /// Light of the layer, premultiplied, and how much it covers, per colour.
 void layerLight(vec2 tangents, Chromatic chromatic, float s, out vec3 colour, out vec3 alpha)
 {
-	const mat3 m = atLine(layer.uv, s);
+	const mat3 m = ARIFT_AT_LINE(layer.uv, s);
 	const vec3 across = m[0] * tangents.x + m[1] * tangents.y;
 	const vec3 green = m[2] + across, blue = m[2] + across * chromatic.blue;
 	const vec2 greenUv = green.xy / green.z, blueUv = blue.xy / blue.z;
