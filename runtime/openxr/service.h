@@ -19,6 +19,8 @@ public:
 	static constexpr XrDuration silenceLimit = 2 * second;
 	/// How long a request may take (real time). A software renderer allocates and clears images in it.
 	static constexpr XrDuration requestLimit = 5 * second;
+	/// The first session may come while the service is still opening its devices, for which it allows itself 15 s.
+	static constexpr XrDuration openingLimit = 20 * second;
 
 	/// Connects, and starts the service when none runs. Throws XR_ERROR_RUNTIME_UNAVAILABLE with the sentence that says what to do.
 	explicit Service(const ipc::Hello &hello);
@@ -34,10 +36,10 @@ public:
 	XrTime now() const { return clock().at(realTime()); }
 
 	/// Sends a request; its answer, or an Error with the result the service gave.
-	template <typename Reply, typename Request> ipc::Answer<Reply> ask(const Request &request)
+	template <typename Reply, typename Request> ipc::Answer<Reply> ask(const Request &request, XrDuration limit = requestLimit)
 	{
 		requireAlive();
-		auto answer = requests_->ask<Reply>(request, requestLimit);
+		auto answer = requests_->ask<Reply>(request, limit);
 		if (answer.how == ipc::Answered::hungUp) lose("it has gone away");
 		if (answer.how == ipc::Answered::timeout) lose("it did not answer in time");
 		requireAlive();

@@ -12,7 +12,7 @@ Session::Session(Instance &owner, std::unique_ptr<Graphics> graphics) : instance
 		request.deviceUuid = graphics_->deviceUuid();
 		request.driverUuid = graphics_->driverUuid();
 	}
-	auto answer = instance.service.ask<ipc::SessionCreated>(request);
+	auto answer = instance.service.ask<ipc::SessionCreated>(request, Service::openingLimit);
 	id_ = answer.reply.session;
 	if (answer.fdCount < 1) throw Error(XR_ERROR_RUNTIME_FAILURE, "arift-service sent no frame channel");
 	frames_ = std::make_unique<ipc::Socket>(std::move(answer.fds[0]));

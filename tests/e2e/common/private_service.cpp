@@ -62,6 +62,7 @@ PrivateService::PrivateService(const std::string &configuration, std::vector<std
 	ipc::copyText(hello.applicationName, "end-to-end test");
 	const auto answer = connection_->ask<ipc::Welcome>(hello, limit);
 	if (!answer) fail("Hello", answer.failure);
+	status(); // is answered once the devices are open and images are made
 }
 
 PrivateService::~PrivateService() = default;
