@@ -60,10 +60,13 @@ Swapchains::Made Swapchains::make(gpu::Device &device, const gpu::ImageSpec &spe
 bool Swapchains::destroy(uint32_t swapchain)
 {
 	std::optional<Swapchain> gone;
-	swapchains_.update([&](auto &all) {
-		if (const auto node = all.extract(swapchain)) gone = node.mapped();
-	});
+	if (const auto alive = swapchains_.lock(); alive->contains(swapchain)) gone = alive->at(swapchain);
 	if (!gone) return false;
+	destroyed_.update([&](auto &destroyed) {
+		destroyed[swapchain] = gone->shape;
+		if (destroyed.size() > Quota::swapchains) destroyed.erase(destroyed.begin());
+	});
+	swapchains_.lock()->erase(swapchain);
 	for (uint32_t i = 0; i < gone->shape.imageCount; ++i) compositor_->removeImage(imageKey(swapchain, i));
 	return true;
 }
@@ -82,10 +85,9 @@ void Swapchains::destroyAll()
 
 std::optional<SwapchainShape> Swapchains::find(uint32_t swapchain)
 {
-	const auto all = swapchains_.lock();
-	const auto found = all->find(swapchain);
-	if (found == all->end()) return std::nullopt;
-	return found->second.shape;
+	if (const auto all = swapchains_.lock(); all->contains(swapchain)) return all->at(swapchain).shape;
+	if (const auto destroyed = destroyed_.lock(); destroyed->contains(swapchain)) return destroyed->at(swapchain);
+	return std::nullopt;
 }
 
 uint64_t Swapchains::bytes()

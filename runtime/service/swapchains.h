@@ -35,6 +35,8 @@ public:
 	/// Says whether there was such a swapchain.
 	bool destroy(uint32_t swapchain);
 	void destroyAll();
+	/// Also of one destroyed not long ago: a submission in the frame channel may be overtaken by the request that destroys what it shows.
+	/// The compositor leaves such layers out.
 	std::optional<SwapchainShape> find(uint32_t swapchain);
 	uint64_t bytes();
 
@@ -45,6 +47,7 @@ private:
 	};
 	Compositor *compositor_;
 	Guarded<std::map<uint32_t, Swapchain>> swapchains_;
+	Guarded<std::map<uint32_t, SwapchainShape>> destroyed_; ///< the last ones
 };
 
 /// A request that is understood and cannot be met: its result and sentence go back to the client, which stays connected.
