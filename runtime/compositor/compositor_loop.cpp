@@ -147,7 +147,8 @@ void Compositor::Loop::run(std::stop_token stop)
 	Clock &clock = surroundings_.clock;
 	End end;
 	try {
-		for (Pacer::Refresh refresh = pacer_.next(clock.now()); clock.sleepUntil(refresh.latch, stop);
+		// On a machine that is always late no sleep is long enough to be ended by the stop request: it is asked for as well.
+		for (Pacer::Refresh refresh = pacer_.next(clock.now()); clock.sleepUntil(refresh.latch, stop) && !stop.stop_requested();
 			 refresh = after(refresh)) {
 			// Later than the margin allows for, the refresh planned cannot be reached any more: the next one can.
 			if (const XrTime now = clock.now(); now - refresh.latch > latest) refresh = pacer_.next(now);
