@@ -1,6 +1,7 @@
 // What the pictures are made of: colours, noise, shapes. All pure and cheap: millions of texels are painted at start-up.
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/common.hpp>
@@ -22,7 +23,7 @@ constexpr glm::vec3 colour(uint32_t rgb)
 }
 
 /// 0 to 1, the same for the same pair.
-inline float random(int x, int y)
+constexpr float random(int x, int y)
 {
 	uint32_t h = uint32_t(x) * 0x8da6b343u ^ uint32_t(y) * 0xd8163841u;
 	h = (h ^ (h >> 15)) * 0x2c1b3c6du;
@@ -30,14 +31,31 @@ inline float random(int x, int y)
 	return float((h ^ (h >> 15)) >> 8) / float(1 << 24);
 }
 
+/// random() of 128 x 128 points, which repeat.
+class Lattice
+{
+public:
+	constexpr Lattice()
+	{
+		for (int y = 0; y < size; y++)
+			for (int x = 0; x < size; x++) values_[size_t(y * size + x)] = random(x, y);
+	}
+	constexpr float at(int x, int y) const { return values_[size_t((y & (size - 1)) * size + (x & (size - 1)))]; }
+
+private:
+	static constexpr int size = 128;
+	std::array<float, size_t(size) * size> values_{};
+};
+inline constexpr Lattice lattice;
+
 /// Smooth noise with a grain of 1, 0 to 1.
 inline float noise(glm::vec2 p)
 {
-	const float fx = std::floor(p.x), fy = std::floor(p.y);
-	const int x = int(fx), y = int(fy);
-	glm::vec2 s{p.x - fx, p.y - fy};
+	const int x = int(p.x) - (p.x < 0), y = int(p.y) - (p.y < 0);
+	glm::vec2 s{p.x - float(x), p.y - float(y)};
 	s = s * s * (3.0f - 2.0f * s);
-	return glm::mix(glm::mix(random(x, y), random(x + 1, y), s.x), glm::mix(random(x, y + 1), random(x + 1, y + 1), s.x), s.y);
+	return glm::mix(glm::mix(lattice.at(x, y), lattice.at(x + 1, y), s.x), glm::mix(lattice.at(x, y + 1), lattice.at(x + 1, y + 1), s.x),
+					s.y);
 }
 
 /// Two octaves.

@@ -178,8 +178,8 @@ float Renderer::markerValue(const Marker &marker, const TileView &view, const gl
 		const bool isSeen = height < 0 && t > 0 && r2 <= 4 * radius2;
 		return !isSeen ? background : r2 <= radius2 && channel == 0 ? markerRed : 0;
 	};
-	// Away from both rims, and seen at no grazing angle, one sample tells it all.
-	const float t = height / glm::dot(normal, ray), reach = 2 * t * (glm::length(across) + glm::length(down));
+	// Where neither rim crosses the pixel, whose half diagonal is stretched at most twice, one sample tells it all.
+	const float t = height / glm::dot(normal, ray), reach = 0.75f * t * (glm::length(across) + glm::length(down));
 	const float r = glm::length(ray * t - offset), radius = float(marker.radius);
 	const bool isPlain = std::abs(r - radius) > reach && std::abs(r - 2 * radius) > reach && glm::dot(normal, ray) < -0.5f;
 	if (isPlain) return sample(ray);

@@ -126,8 +126,8 @@ TEST(DamagedInput, ImagesOfAnotherSizeOrFormat)
 {
 	const TemporaryFolder folder;
 	writeEuroc(folder.path());
-	const auto second = folder.path() / "mav0/cam0/data/1403715273312142976.png";
-	writeGreyPng(second, 9, 6, 1);
+	const auto image = folder.path() / "mav0/cam0/data/1403715273312142976.png";
+	writeGreyPng(image, 9, 6, 1);
 	expectComplaint(replayComplaint(folder), {"1403715273312142976.png", "9 x 6, expected 8 x 6"});
 }
 
@@ -137,8 +137,8 @@ TEST(DamagedInput, AnImageThatBreaksOffIsCountedAndDropped)
 	writeEuroc(folder.path());
 	const auto clock = makeSteppedClock(0);
 	const Clock::Hold hold(*clock);
-	const auto second_ = folder.path() / "mav0/cam0/data/1403715273312142976.png";
-	std::filesystem::resize_file(second_, std::filesystem::file_size(second_) - 18); // within the pixels
+	const auto image = folder.path() / "mav0/cam0/data/1403715273312142976.png";
+	std::filesystem::resize_file(image, std::filesystem::file_size(image) - 18); // within the pixels
 	const auto driver = makeDriver("replay", {.clock = *clock, .configuration = replayConfiguration(folder, folder.path())});
 	const auto camera = driver->openCamera(0, makeHostFrameBuffer);
 	std::stop_source stop;

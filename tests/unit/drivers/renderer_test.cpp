@@ -153,13 +153,13 @@ TEST(Renderer, NoiseGrowsWithTheSignalAndChangesWithTheImage)
 {
 	const CameraGeometry geometry = test::PlainLens{}.geometry();
 	const auto clean = draw(geometry, {}, grey);
-	const auto first = draw(geometry, {}, {.format = PixelFormat::grey8, .noise = true}, {}, 1);
-	const auto second = draw(geometry, {}, {.format = PixelFormat::grey8, .noise = true}, {}, 2);
+	const auto one = draw(geometry, {}, {.format = PixelFormat::grey8, .noise = true}, {}, 1);
+	const auto other = draw(geometry, {}, {.format = PixelFormat::grey8, .noise = true}, {}, 2);
 	double square[2] = {}, mean = 0;
 	int count[2] = {}, same = 0;
 	for (size_t i = 0; i < clean.size(); i++) {
-		const int value = std::to_integer<int>(clean[i]), noisy = std::to_integer<int>(first[i]);
-		same += first[i] == second[i];
+		const int value = std::to_integer<int>(clean[i]), noisy = std::to_integer<int>(one[i]);
+		same += one[i] == other[i];
 		mean += double(noisy - value) / double(clean.size());
 		if (value > 230 || value < 10) continue;
 		const int bright = value > 80;
