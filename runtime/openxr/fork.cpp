@@ -8,16 +8,18 @@
 
 namespace arift::openxr
 {
+
+constinit std::atomic<uint32_t> detail::forks{0};
+
 namespace
 {
 
-constinit std::atomic<uint32_t> forks{0};
 constinit std::array<std::atomic<int>, 64> sockets{}; ///< descriptor + 1; 0 where free
 
 /// Runs in the child alone, with one thread: only async-signal-safe calls.
 void inChild()
 {
-	forks.fetch_add(1);
+	detail::forks.fetch_add(1);
 	const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
 	for (auto &socket : sockets)
 		if (const int fd = socket.load() - 1; fd >= 0 && nothing >= 0) ::dup3(nothing, fd, O_CLOEXEC);
@@ -26,12 +28,10 @@ void inChild()
 
 } // namespace
 
-uint32_t forkCount()
+void watchForks()
 {
-	// The C library forgets the handler when this library is unloaded.
 	static std::once_flag once;
 	std::call_once(once, [] { ::pthread_atfork(nullptr, nullptr, inChild); });
-	return forks.load(std::memory_order_relaxed);
 }
 
 ClosedInChildren::ClosedInChildren(int fd)
