@@ -137,7 +137,7 @@ Device::Handles::Handles(const std::vector<const char *> &surfaceExtensions)
 	  device(makeDevice(physical, queueFamily, canPresent)),
 	  queue(device.getQueue(queueFamily, 0)),
 	  identity(identify(physical)),
-	  patience(identity.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU ? 30s : 1s)
+	  patience(identity.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU ? 120s : 1s)
 {
 	if (validationWanted()) messenger.emplace(instance, messengerInfo(validationMessages));
 }
@@ -154,8 +154,13 @@ uint32_t Device::Handles::memoryType(uint32_t allowed, std::span<const vk::Memor
 void Device::Handles::submitAndWait(const vk::raii::CommandBuffer &commands, const vk::raii::Fence &fence)
 {
 	queue.lock()->submit(vk::SubmitInfo{{}, {}, *commands}, *fence);
-	if (device.waitForFences(*fence, true, uint64_t(patience.count())) != vk::Result::eSuccess)
+	if (device.waitForFences(*fence, true, uint64_t(patience.count())) != vk::Result::eSuccess) {
+		// What unwinding destroys must not be in use any more. The kernel resets a GPU that hangs, which ends this wait.
+		log::error("the GPU did not finish within {} ms", patience / 1ms);
+		const auto held = queue.lock();
+		held->waitIdle();
 		throw std::runtime_error(fmt::format("the GPU did not finish within {} ms", patience / 1ms));
+	}
 	device.resetFences(*fence);
 }
 

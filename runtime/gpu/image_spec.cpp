@@ -12,8 +12,11 @@ VkImageLayout boundaryLayout(VkFormat format)
 
 VkImageCreateInfo imageCreateInfo(const ImageSpec &spec, VkExternalMemoryImageCreateInfo &external)
 {
-	// What the service does with every image: it clears new ones and samples the ones with colour.
-	const VkImageUsageFlags ours = VK_IMAGE_USAGE_TRANSFER_DST_BIT | (isDepth(VkFormat(spec.format)) ? 0 : VK_IMAGE_USAGE_SAMPLED_BIT);
+	// What the service does with every image (clears new ones, samples those with colour), and what the boundary layout demands.
+	const bool depth = isDepth(VkFormat(spec.format));
+	const VkImageUsageFlags ours =
+		VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+		(depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
 	external = {.sType = VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_IMAGE_CREATE_INFO, .pNext = nullptr, .handleTypes = sharedHandleType};
 	return {
 		.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,

@@ -57,9 +57,11 @@ TEST_F(PanelTest, grey16HasSixteenBits)
 }
 
 struct BayerCase {
+	const char *name;
 	PixelFormat format;
 	uint32_t redX, redY;
 };
+void PrintTo(const BayerCase &bayer, std::ostream *out) { *out << bayer.name; }
 class PanelBayerTest : public PanelTest, public testing::WithParamInterface<BayerCase>
 {
 };
@@ -76,8 +78,10 @@ TEST_P(PanelBayerTest, coloursComeFromTheirOwnLattices)
 	for (const int offset : {-60, 0, 61}) expectNear(at(centreX + offset, centreY + offset), {200 / 255.0, 100 / 255.0, 50 / 255.0});
 }
 INSTANTIATE_TEST_SUITE_P(EveryOrder, PanelBayerTest,
-						 testing::Values(BayerCase{PixelFormat::bayerRggb8, 0, 0}, BayerCase{PixelFormat::bayerGrbg8, 1, 0},
-										 BayerCase{PixelFormat::bayerGbrg8, 0, 1}, BayerCase{PixelFormat::bayerBggr8, 1, 1}));
+						 testing::Values(BayerCase{"rggb", PixelFormat::bayerRggb8, 0, 0}, BayerCase{"grbg", PixelFormat::bayerGrbg8, 1, 0},
+										 BayerCase{"gbrg", PixelFormat::bayerGbrg8, 0, 1},
+										 BayerCase{"bggr", PixelFormat::bayerBggr8, 1, 1}),
+						 [](const auto &test) { return test.param.name; });
 
 TEST_F(PanelTest, blackLevelAndWhiteBalanceAreApplied)
 {

@@ -26,6 +26,7 @@ struct BlendCase {
 	XrCompositionLayerFlags flags;
 	Linear expected;
 };
+void PrintTo(const BlendCase &blend, std::ostream *out) { *out << blend.name; }
 class PanelBlendTest : public PanelTest, public testing::WithParamInterface<BlendCase>
 {
 };

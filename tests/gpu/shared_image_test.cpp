@@ -117,6 +117,15 @@ TEST(SharedImage, refusesWhatTheDeviceCannotMake)
 	EXPECT_EQ(device.validationMessages(), 0u);
 }
 
+TEST(SharedImage, mayBeUsedForCopiesAlone)
+{
+	Device device;
+	ImageSpec plain = spec;
+	plain.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+	const SharedImage shared(device, plain);
+	EXPECT_EQ(device.validationMessages(), 0u) << "its boundary layout is an attachment's";
+}
+
 TEST(BoundaryLayout, isTheSpecifications)
 {
 	EXPECT_EQ(boundaryLayout(VK_FORMAT_R8G8B8A8_SRGB), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
