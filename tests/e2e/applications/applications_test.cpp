@@ -2,6 +2,7 @@
 // nothing.
 #include "tests/e2e/applications/layer_messages.h"
 #include "tests/e2e/common/private_service.h"
+#include <algorithm>
 #include <cmath>
 #include <fcntl.h>
 #include <fstream>

@@ -17,7 +17,7 @@ namespace
 constexpr double degree = M_PI / 180;
 constexpr double angularRadius = 0.021; // of the red disc, tangent: eight panel pixels
 constexpr double settled = 1.5;         // seconds after which the head turns at its constant rate
-constexpr int limitSeconds = 120;       // real time, for one figure
+constexpr int limitSeconds = 240;       // real time, for one figure
 
 /// In every direction all around, some above and below the horizon; each faced by a head that turns about the neck at its distance.
 std::vector<Eigen::Vector3d> markerPlaces(double distance)
@@ -119,7 +119,7 @@ Figures Measurement::measure(const Setting &setting, size_t pictures)
 	XrTime first = 0, newest = 0;
 	while (looked < pictures) {
 		if (!application_.running()) throw std::runtime_error("pinned_marker ended: " + application_.output());
-		if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("too few pictures with holograms in two minutes");
+		if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("too few pictures with holograms in four minutes");
 		PanelPicture picture = service_.screenshot();
 		if (picture.displayTime == newest) continue;
 		newest = picture.displayTime;

@@ -1,6 +1,7 @@
 // The panel in a window: what an X client sees there is what the service says it shows.
 #include "tests/e2e/common/child_process.h"
 #include "tests/e2e/common/private_tree.h"
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
