@@ -190,14 +190,15 @@ XrResult locateViews(Session &session, const XrViewLocateInfo &info, XrViewState
 	const bool located = base && locator.head().found != Found::none;
 	const XrPosef toSpace = located ? inverse(base->pose) : identityPose;
 	const ipc::TimingTable timing = service.timing();
+	HeadMotion then = locator.head(); // at the exposure of the camera image that will be shown
 	const XrResult result = views.fill(2, [&](uint32_t eye, XrView &view) {
 		view.fov = table.fov[eye];
 		view.pose = identityPose;
 		if (!located) return;
 		const XrTime exposure = exposureShownAt(timing.cameras[eye], info.displayTime, timing.latchBeforeDisplay);
-		HeadMotion atExposure = table.viewOffset > 0 ? service.poses().at(exposure) : locator.head();
-		if (atExposure.found == Found::none) atExposure = locator.head();
-		view.pose = toSpace * viewInOrigin(table, eye, locator.head(), atExposure);
+		if (table.viewOffset > 0 && exposure != then.at.time) then = service.poses().at(exposure);
+		if (then.found == Found::none) then = locator.head();
+		view.pose = toSpace * viewInOrigin(table, eye, locator.head(), then);
 	});
 	static_assert(XR_VIEW_STATE_ORIENTATION_VALID_BIT == oriented);
 	// Bit for bit the same as XrSpaceLocationFlags.
