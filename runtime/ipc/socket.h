@@ -4,6 +4,7 @@
 #include "runtime/base/xr.h"
 #include "runtime/ipc/messages.h"
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -43,6 +44,18 @@ struct Received {
 	}
 };
 
+/// A struct of messages.h: its bytes are what travels. (A container of bytes is none: its own bytes are pointers.)
+template <typename M>
+concept WireMessage = std::is_trivially_copyable_v<M> && requires(M message)
+{
+	{
+		M::type
+		} -> std::convertible_to<MessageType>;
+	{
+		message.header
+		} -> std::convertible_to<Header>;
+};
+
 /// Bytes of a message that travel: all of it, except layers a Submission does not use.
 template <typename M> size_t wireSize(const M &) { return sizeof(M); }
 inline size_t wireSize(const Submission &submission) { return offsetof(Submission, layers) + submission.layerCount * sizeof(Layer); }
@@ -57,11 +70,11 @@ public:
 
 	/// Sends bytes and duplicates of `fds` (at most maxFds) as one message, or nothing at all.
 	Transfer send(std::span<const std::byte> bytes, std::span<const int> fds, XrTime realDeadline);
-	template <typename M> Transfer send(const M &message, std::span<const int> fds, XrTime realDeadline)
+	template <WireMessage M> Transfer send(const M &message, std::span<const int> fds, XrTime realDeadline)
 	{
 		return send({reinterpret_cast<const std::byte *>(&message), wireSize(message)}, fds, realDeadline);
 	}
-	template <typename M> Transfer send(const M &message, XrTime realDeadline)
+	template <WireMessage M> Transfer send(const M &message, XrTime realDeadline)
 	{
 		return send(message, std::span<const int>{}, realDeadline);
 	}

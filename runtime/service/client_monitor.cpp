@@ -11,7 +11,7 @@ namespace arift
 namespace
 {
 
-constexpr XrDuration openingLimit = 15 * second, pictureLimit = 5 * second;
+constexpr XrDuration openingLimit = 15 * second, pictureLimit = 10 * second;
 
 } // namespace
 
@@ -33,7 +33,7 @@ void Client::answer(const ipc::Screenshot &message)
 {
 	const Opened opened = world_.await(Stage::ready, openingLimit);
 	const auto picture = opened.compositor->picture(message.kind, pictureLimit);
-	if (!picture) throw Refused(XR_ERROR_RUNTIME_FAILURE, "no image was finished within five seconds");
+	if (!picture) throw Refused(XR_ERROR_RUNTIME_FAILURE, "no image was finished within ten seconds");
 	const UniqueFd memory = ipc::makeSealedCopy("arift-picture", picture->image.pixels);
 	ipc::Picture answer;
 	answer.width = picture->image.width;
