@@ -6,7 +6,8 @@ cd "$(dirname "$0")/.."
 
 usage() {
 	cat <<'TEXT'
-usage: tools/test.sh [--all] [--long] [--only STAGE]...
+usage: tools/test.sh [--quick] [--all] [--long] [--only STAGE]...
+  --quick       packages, format and the release build's tests without the end-to-end ones: what every commit must pass
   --all         clang-tidy reads every file, not only those that the newest commit and the working tree change
   --long        the long figures as well (tests labelled "long")
   --only STAGE  run this stage alone (may be given again): packages format release asan fuzz tsan tidy bench
@@ -16,9 +17,14 @@ TEXT
 all_stages=(packages format release asan fuzz tsan tidy bench)
 stages=()
 tidy_all=false
+quick=false
 long=false
 while [ $# -gt 0 ]; do
 	case "$1" in
+	--quick)
+		stages=(packages format release)
+		quick=true
+		;;
 	--all) tidy_all=true ;;
 	--long) long=true ;;
 	--only)
@@ -54,6 +60,7 @@ if $long; then
 	label_filter=()
 	export ARIFT_LONG=1
 fi
+if $quick; then label_filter=(-LE 'long|e2e'); fi
 suppressions=$PWD/tests/suppressions
 sanitizers=(
 	ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1

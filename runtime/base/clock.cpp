@@ -4,7 +4,8 @@
 #include <mutex>
 #include <time.h>
 
-namespace arift {
+namespace arift
+{
 
 XrTime realTime()
 {
@@ -13,10 +14,12 @@ XrTime realTime()
 	return XrTime(now.tv_sec) * second + now.tv_nsec;
 }
 
-namespace {
+namespace
+{
 
 /// Real and scaled time: sleeps on a condition variable so that a stop request ends the sleep at once.
-class RunningClock final : public Clock {
+class RunningClock final : public Clock
+{
 public:
 	explicit RunningClock(double rate) : anchor_(anchorFor(rate)) {}
 
@@ -44,7 +47,8 @@ private:
 	const ClockAnchor anchor_;
 };
 
-class SteppedClock final : public Clock {
+class SteppedClock final : public Clock
+{
 public:
 	explicit SteppedClock(XrTime start) : now_(start) {}
 

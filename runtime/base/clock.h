@@ -5,7 +5,8 @@
 #include <stop_token>
 #include <utility>
 
-namespace arift {
+namespace arift
+{
 
 /// CLOCK_MONOTONIC now, in nanoseconds: for durations, heartbeats and limits, which are always real.
 XrTime realTime();
@@ -22,7 +23,8 @@ struct ClockAnchor {
 	}
 };
 
-class Clock {
+class Clock
+{
 public:
 	virtual ~Clock() = default;
 
@@ -35,7 +37,8 @@ public:
 	/// While anybody holds a stepped clock, time stands still; it steps to the earliest sleeper's time when nobody does.
 	/// Every thread that sleeps on the clock holds it while it works, and so does every application between two xrWaitFrame.
 	/// Real and scaled clocks take no notice.
-	class Hold {
+	class Hold
+	{
 	public:
 		explicit Hold(Clock &clock) : clock_(&clock) { clock.take(); }
 		Hold(Hold &&other) noexcept : clock_(std::exchange(other.clock_, nullptr)) {}

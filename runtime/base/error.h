@@ -4,13 +4,13 @@
 #include <stdexcept>
 #include <string>
 
-namespace arift {
+namespace arift
+{
 
 /// Bad input from outside (a file, a command line, a message). `what()` is one sentence fit to be shown as it is.
 struct InputError : std::runtime_error {
 	using std::runtime_error::runtime_error;
-	template <typename... Args>
-	explicit InputError(fmt::format_string<Args...> format, Args &&...args)
+	template <typename... Args> explicit InputError(fmt::format_string<Args...> format, Args &&...args)
 		: std::runtime_error(fmt::format(format, std::forward<Args>(args)...))
 	{
 	}

@@ -5,13 +5,16 @@
 #include <stop_token>
 #include <utility>
 
-namespace arift {
+namespace arift
+{
 
-template <typename T> class Guarded {
+template <typename T> class Guarded
+{
 public:
 	template <typename... Args> explicit Guarded(Args &&...args) : value_(std::forward<Args>(args)...) {}
 
-	class [[nodiscard]] Access {
+	class [[nodiscard]] Access
+	{
 	public:
 		T *operator->() const { return &value_; }
 		T &operator*() const { return value_; }

@@ -4,9 +4,11 @@
 #include <ctime>
 #include <unistd.h>
 
-namespace arift::log {
+namespace arift::log
+{
 
-namespace {
+namespace
+{
 
 std::atomic<int> defaultLevel{int(Level::info)};
 

@@ -7,7 +7,8 @@
 #include <fmt/format.h>
 #include <string_view>
 
-namespace arift::log {
+namespace arift::log
+{
 
 enum class Level { debug, info, warning, error, off };
 

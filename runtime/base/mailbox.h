@@ -3,9 +3,11 @@
 #include "runtime/base/guarded.h"
 #include <optional>
 
-namespace arift {
+namespace arift
+{
 
-template <typename T> class Mailbox {
+template <typename T> class Mailbox
+{
 public:
 	/// Puts the value and returns the unread one that it replaced.
 	std::optional<T> put(T value)

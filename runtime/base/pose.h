@@ -7,7 +7,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-namespace arift {
+namespace arift
+{
 
 constexpr XrQuaternionf identityOrientation{0, 0, 0, 1};
 constexpr XrPosef identityPose{identityOrientation, {0, 0, 0}};
@@ -71,7 +72,10 @@ inline XrVector3f cvFromXr(const XrVector3f &v) { return {v.x, -v.y, -v.z}; }
 inline XrVector3f xrFromCv(const XrVector3f &v) { return cvFromXr(v); }
 
 inline bool isFinite(const XrVector3f &v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-inline bool isFinite(const XrQuaternionf &q) { return std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w); }
+inline bool isFinite(const XrQuaternionf &q)
+{
+	return std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z) && std::isfinite(q.w);
+}
 /// OpenXR 1.1, "Quaternions": a unit quaternion within 1 %.
 inline bool isValidPose(const XrPosef &pose)
 {

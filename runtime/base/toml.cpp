@@ -42,7 +42,11 @@ const toml::table emptyTable;
 
 } // namespace
 
-std::string TomlTable::where(const toml::node &node) const { return fmt::format("{}:{}", file_, node.source().begin.line); }
+std::string TomlTable::where(const toml::node &node) const
+{
+	const auto line = node.source().begin.line; // 0: it was never in a file
+	return line == 0 ? file_ : fmt::format("{}:{}", file_, line);
+}
 
 void TomlTable::complain(const char *key, std::string_view expected) const
 {

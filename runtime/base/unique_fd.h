@@ -3,9 +3,11 @@
 #include <unistd.h>
 #include <utility>
 
-namespace arift {
+namespace arift
+{
 
-class UniqueFd {
+class UniqueFd
+{
 public:
 	UniqueFd() = default;
 	explicit UniqueFd(int fd) : fd_(fd) {}

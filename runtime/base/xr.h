@@ -7,7 +7,8 @@
 #include <ctime>
 #include <openxr/openxr.h>
 
-namespace arift {
+namespace arift
+{
 
 constexpr XrDuration nanosecond = 1;
 constexpr XrDuration microsecond = 1'000;

@@ -1,5 +1,6 @@
 #include "runtime/compositor/camera_feed.h"
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace arift
@@ -28,19 +29,35 @@ void CameraTimingEstimate::add(uint64_t sequence, XrTime midExposure, XrTime usa
 ipc::CameraTiming CameraTimingEstimate::timing() const
 {
 	if (images_.size() < 2) return {};
-	std::vector<XrDuration> periods, offsets, delays;
-	const size_t half = images_.size() / 2; // far pairs: jitter is divided by the number of periods between them
-	for (size_t i = half; i < images_.size(); ++i)
-		periods.push_back((images_[i].midExposure - images_[i - half].midExposure) /
-						  XrDuration(images_[i].sequence - images_[i - half].sequence));
-	const XrDuration period = atRank(periods, 0.5);
 	const Image &newest = images_.back();
-	// Every image says when the newest was taken if all were taken on the beat: the middle one of these is the most credible.
-	for (const Image &image : images_) {
-		offsets.push_back(image.midExposure + XrDuration(newest.sequence - image.sequence) * period - newest.midExposure);
-		delays.push_back(image.delay);
+	std::vector<XrDuration> delays;
+	for (const Image &image : images_) delays.push_back(image.delay);
+	const Beat beat = leastSquares(newest, leastSquares(newest, std::nullopt));
+	return {newest.midExposure + XrDuration(beat.offset), XrDuration(beat.period), atRank(delays, 0.9)};
+}
+
+/// Straight line through (sequence, mid-exposure), both counted from the newest image; images further than three times the usual
+/// distance from `before` (where there is one) take no part.
+CameraTimingEstimate::Beat CameraTimingEstimate::leastSquares(const Image &newest, std::optional<Beat> before) const
+{
+	const auto at = [&](const Image &image) { return -double(newest.sequence - image.sequence); };
+	const auto time = [&](const Image &image) { return double(image.midExposure - newest.midExposure); };
+	const auto distance = [&](const Image &image) { return std::abs(time(image) - before->offset - before->period * at(image)); };
+	double usual = 0;
+	if (before) {
+		std::vector<XrDuration> distances;
+		for (const Image &image : images_) distances.push_back(XrDuration(distance(image)));
+		usual = double(atRank(distances, 0.5)) + 1000;
 	}
-	return {newest.midExposure + atRank(offsets, 0.5), period, atRank(delays, 0.9)};
+	double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+	for (const Image &image : images_) {
+		if (before && distance(image) > 3 * usual) continue;
+		n += 1, x += at(image), y += time(image), xx += at(image) * at(image), xy += at(image) * time(image);
+	}
+	const double spread = n * xx - x * x;
+	if (spread <= 0) return *before; // one image alone agrees with the line: keep it
+	const double period = (n * xy - x * y) / spread;
+	return {period, (y - period * x) / n};
 }
 
 void CameraFeed::put(CameraImage image, XrTime usable)

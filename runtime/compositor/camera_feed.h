@@ -24,6 +24,12 @@ private:
 		XrTime midExposure;
 		XrDuration delay;
 	};
+	/// A straight line through the images: nanoseconds, from the newest image's mid-exposure and from image to image.
+	struct Beat {
+		double period, offset;
+	};
+	Beat leastSquares(const Image &newest, std::optional<Beat> before) const;
+
 	std::deque<Image> images_;
 };
 

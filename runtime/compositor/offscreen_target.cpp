@@ -1,10 +1,13 @@
 #include "runtime/compositor/target.h"
 
-namespace arift {
+namespace arift
+{
 
-namespace {
+namespace
+{
 
-class OffscreenTarget final : public Target {
+class OffscreenTarget final : public Target
+{
 public:
 	OffscreenTarget(const Clock &clock, XrDuration period) : clock_(clock), period_(period) {}
 

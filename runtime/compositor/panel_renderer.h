@@ -5,10 +5,12 @@
 #include <memory>
 #include <span>
 
-namespace arift {
+namespace arift
+{
 
 struct Rig;
-namespace gpu {
+namespace gpu
+{
 class Device;
 }
 
@@ -20,7 +22,8 @@ struct ReadbackImage {
 };
 
 /// Thread-bound. Builds every pipeline in its constructor.
-class PanelRenderer {
+class PanelRenderer
+{
 public:
 	/// `format` of the panel image: VK_FORMAT_R8G8B8A8_SRGB, or VK_FORMAT_R16G16B16A16_UNORM (linear light) for measurements.
 	PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat format = VK_FORMAT_R8G8B8A8_SRGB);
@@ -36,7 +39,9 @@ public:
 	void render(const PanelInputs &inputs);
 
 	/// GPU and CPU cost of the last render, seconds.
-	struct Cost { double record = 0, wait = 0; };
+	struct Cost {
+		double record = 0, wait = 0;
+	};
 	Cost cost() const;
 
 	/// The panel image; layout TRANSFER_SRC_OPTIMAL after render(). For targets (window, offscreen).

@@ -1,11 +1,14 @@
 #include "runtime/device/camera.h"
 #include <vector>
 
-namespace arift {
+namespace arift
+{
 
-namespace {
+namespace
+{
 
-class HostFrameBuffer final : public FrameBuffer {
+class HostFrameBuffer final : public FrameBuffer
+{
 public:
 	explicit HostFrameBuffer(size_t bytes) : bytes_(bytes) {}
 	std::span<std::byte> bytes() override { return bytes_; }

@@ -5,7 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-namespace arift {
+namespace arift
+{
 
 /// Where a simulated camera looks: what its driver must know to draw, as plain numbers.
 struct CameraGeometry {
@@ -18,13 +19,14 @@ struct CameraGeometry {
 /// What a driver may know of the world it is opened in.
 struct DriverContext {
 	Clock &clock;
-	std::filesystem::path configuration; ///< the TOML file whose table of the driver's name holds its settings; may be empty
-	std::array<CameraGeometry, 2> geometry; ///< for drivers that simulate cameras: left, right
+	std::filesystem::path configuration;           ///< the TOML file whose table of the driver's name holds its settings; may be empty
+	std::array<CameraGeometry, 2> geometry;        ///< for drivers that simulate cameras: left, right
 	XrPosef imuInHead = {{0, 0, 0, 1}, {0, 0, 0}}; ///< for drivers that simulate a tracker
 	XrVector3f neckInHead{0, -0.075f, 0.0805f};    ///< the pivot a simulated head turns about
 };
 
-class Driver {
+class Driver
+{
 public:
 	virtual ~Driver() = default;
 	/// For people: "synthetic headset", "Oculus Rift DK1".

@@ -1,7 +1,8 @@
 // How a bounded wait for a device ended. Expected outcomes are values, not exceptions.
 #pragma once
 
-namespace arift {
+namespace arift
+{
 
 enum class Outcome {
 	ready,   ///< the output parameter holds a new sample

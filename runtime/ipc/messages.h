@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <openxr/openxr.h>
 
-namespace arift::ipc {
+namespace arift::ipc
+{
 
 constexpr uint32_t magic = 0x54465241; // "ARFT"
 constexpr uint32_t protocol = 1;       // raised with every change of this file or of pages.h
@@ -17,20 +18,28 @@ constexpr uint32_t maxLayers = 16;     // per submission
 
 enum class MessageType : uint32_t {
 	// application or monitor -> service -> back
-	hello = 1, welcome,
-	createSession, sessionCreated,
+	hello = 1,
+	welcome,
+	createSession,
+	sessionCreated,
 	destroySession,
 	sessionRunning, // begin and end
-	createSwapchain, swapchainCreated,
+	createSwapchain,
+	swapchainCreated,
 	destroySwapchain,
-	done, // the reply without content
+	done,   // the reply without content
 	failed, // the reply to a request that could not be met
 	// frame channel
-	waitFrame = 100, frameReady, submission, relinquish,
+	waitFrame = 100,
+	frameReady,
+	submission,
+	relinquish,
 	// monitors
-	getStatus = 200, status, // status: fd of a sealed memfd with JSON text
-	screenshot, picture,     // picture: fd of a sealed memfd with RGBA8 rows
-	setSetting,              // reply: done or failed
+	getStatus = 200,
+	status, // status: fd of a sealed memfd with JSON text
+	screenshot,
+	picture,    // picture: fd of a sealed memfd with RGBA8 rows
+	setSetting, // reply: done or failed
 	recenter,
 	shutDown,
 };
@@ -47,10 +56,10 @@ struct Hello {
 	Header header{type};
 	uint32_t magic = ipc::magic;
 	uint32_t protocol = ipc::protocol;
-	char build[48]{};               ///< of the library: shown when protocols differ
+	char build[48]{}; ///< of the library: shown when protocols differ
 	Role role = Role::application;
 	uint32_t pid = 0;
-	uint64_t apiVersion = 0;        ///< XrVersion the application asked for
+	uint64_t apiVersion = 0; ///< XrVersion the application asked for
 	char applicationName[128]{};
 	char engineName[128]{};
 };
@@ -67,10 +76,10 @@ struct Welcome {
 	uint32_t maxWidth = 0, maxHeight = 0;
 	uint32_t maxLayers = ipc::maxLayers;
 	uint32_t blendModeCount = 0;
-	std::array<int32_t, 4> blendModes{};   ///< XrEnvironmentBlendMode in the runtime's order of preference
+	std::array<int32_t, 4> blendModes{}; ///< XrEnvironmentBlendMode in the runtime's order of preference
 	uint32_t orientationTracking = 1, positionTracking = 0;
 	std::array<uint8_t, 16> deviceUuid{}, driverUuid{}; ///< of the service's GPU
-	uint32_t deviceType = 0;               ///< VkPhysicalDeviceType
+	uint32_t deviceType = 0;                            ///< VkPhysicalDeviceType
 	uint32_t steppedClock = 0;
 };
 
@@ -114,8 +123,8 @@ struct SwapchainCreated {
 	Header header{type};
 	uint32_t swapchain = 0;
 	uint32_t imageCount = 0;
-	uint64_t memorySize = 0;       ///< VkMemoryRequirements::size of each image
-	uint32_t memoryTypeIndex = 0;  ///< on the service's device
+	uint64_t memorySize = 0;      ///< VkMemoryRequirements::size of each image
+	uint32_t memoryTypeIndex = 0; ///< on the service's device
 	uint32_t reserved = 0;
 };
 struct DestroySwapchain {
@@ -146,7 +155,7 @@ struct WaitFrame {
 struct FrameReady {
 	static constexpr MessageType type = MessageType::frameReady;
 	Header header{type};
-	XrTime predictedDisplayTime = 0;    ///< of the panel's middle line
+	XrTime predictedDisplayTime = 0; ///< of the panel's middle line
 	XrDuration predictedDisplayPeriod = 0;
 	uint32_t shouldRender = 0;
 	uint32_t reserved = 0;
@@ -154,34 +163,34 @@ struct FrameReady {
 
 struct SubImage {
 	uint32_t swapchain = 0;
-	uint32_t image = 0;                 ///< index in the swapchain: the one released last
+	uint32_t image = 0; ///< index in the swapchain: the one released last
 	uint32_t arrayIndex = 0;
-	int32_t x = 0, y = 0;               ///< rectangle in texels, origin at the top left
+	int32_t x = 0, y = 0; ///< rectangle in texels, origin at the top left
 	int32_t width = 0, height = 0;
 	uint32_t reserved = 0;
 };
 enum class LayerType : uint32_t { projection, quad };
 enum class LayerFrame : uint32_t { origin /**< fixed in the world */, head /**< moves with the head (VIEW space) */ };
 struct LayerView {
-	XrPosef pose = identityPose;        ///< of the view in the layer's frame
+	XrPosef pose = identityPose; ///< of the view in the layer's frame
 	XrFovf fov{};
 	SubImage image;
 };
 struct Layer {
 	LayerType type = LayerType::projection;
 	LayerFrame frame = LayerFrame::origin;
-	uint32_t flags = 0;                 ///< XrCompositionLayerFlags
-	uint32_t eyes = 3;                  ///< bit 0 left, bit 1 right
-	std::array<LayerView, 2> views;     ///< projection: both; quad: views[0].image and views[0].pose (the quad's centre)
-	float width = 0, height = 0;        ///< quad: metres
+	uint32_t flags = 0;             ///< XrCompositionLayerFlags
+	uint32_t eyes = 3;              ///< bit 0 left, bit 1 right
+	std::array<LayerView, 2> views; ///< projection: both; quad: views[0].image and views[0].pose (the quad's centre)
+	float width = 0, height = 0;    ///< quad: metres
 };
 /// Sent when all work on the images it names is finished. Only the first `layerCount` layers are sent.
 struct Submission {
 	static constexpr MessageType type = MessageType::submission;
 	Header header{type};
-	uint64_t frame = 0;                 ///< counts the session's submissions from 1
+	uint64_t frame = 0; ///< counts the session's submissions from 1
 	XrTime displayTime = 0;
-	int32_t blendMode = 0;              ///< XrEnvironmentBlendMode
+	int32_t blendMode = 0; ///< XrEnvironmentBlendMode
 	uint32_t layerCount = 0;
 	std::array<Layer, maxLayers> layers;
 };
@@ -197,13 +206,13 @@ struct Relinquish {
 struct GetStatus {
 	static constexpr MessageType type = MessageType::getStatus;
 	Header header{type};
-	uint32_t resetFigures = 0;          ///< start the record of frame figures anew after answering
+	uint32_t resetFigures = 0; ///< start the record of frame figures anew after answering
 	uint32_t reserved = 0;
 };
 struct Status {
 	static constexpr MessageType type = MessageType::status;
 	Header header{type};
-	uint64_t size = 0;                  ///< bytes of JSON in the memfd
+	uint64_t size = 0; ///< bytes of JSON in the memfd
 };
 enum class PictureKind : uint32_t { panel, eyes /**< both views side by side before the lens correction */ };
 struct Screenshot {
@@ -215,8 +224,8 @@ struct Screenshot {
 struct Picture {
 	static constexpr MessageType type = MessageType::picture;
 	Header header{type};
-	uint32_t width = 0, height = 0;     ///< RGBA8, sRGB encoded, rows without padding
-	XrTime displayTime = 0;             ///< of the middle line
+	uint32_t width = 0, height = 0; ///< RGBA8, sRGB encoded, rows without padding
+	XrTime displayTime = 0;         ///< of the middle line
 };
 enum class Setting : uint32_t { viewOffset, passthroughDistance };
 struct SetSetting {

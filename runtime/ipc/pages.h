@@ -9,11 +9,13 @@
 #include <optional>
 #include <type_traits>
 
-namespace arift::ipc {
+namespace arift::ipc
+{
 
 /// One writer, many readers of a small plain value, by a sequence word that is odd while the value is written.
 /// A reader gives up after a few tries: a writer killed half-way leaves the word odd for ever.
-template <typename T> class Published {
+template <typename T> class Published
+{
 	static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0);
 
 public:
@@ -53,9 +55,9 @@ private:
 
 /// When a camera's images are taken and when they are there: exposures at reference + k * period, usable `delay` later.
 struct CameraTiming {
-	XrTime reference = 0;    ///< mid-exposure of a recent image
-	XrDuration period = 0;   ///< 0: no camera
-	XrDuration delay = 0;    ///< from mid-exposure until the compositor can take it
+	XrTime reference = 0;  ///< mid-exposure of a recent image
+	XrDuration period = 0; ///< 0: no camera
+	XrDuration delay = 0;  ///< from mid-exposure until the compositor can take it
 };
 
 /// Everything that decides where views are and how spaces lie. Changes rarely, always as a whole.
@@ -63,12 +65,12 @@ struct ViewTable {
 	std::array<XrPosef, 2> eyeInHead;
 	std::array<XrPosef, 2> cameraInHead;
 	std::array<XrFovf, 2> fov;
-	float viewOffset = 1;              ///< 0 = views at the eyes, 1 = at the cameras
+	float viewOffset = 1; ///< 0 = views at the eyes, 1 = at the cameras
 	float reserved = 0;
-	XrVector3f pivotInHead{};          ///< the neck model's
-	float floorBelowLocal = 0;         ///< metres from LOCAL's origin down to the floor
+	XrVector3f pivotInHead{};             ///< the neck model's
+	float floorBelowLocal = 0;            ///< metres from LOCAL's origin down to the floor
 	XrPosef localInOrigin = identityPose; ///< level: heading and position only
-	std::array<float, 2> stageBounds{};///< metres, width and depth around STAGE's origin
+	std::array<float, 2> stageBounds{};   ///< metres, width and depth around STAGE's origin
 	uint32_t recenterCount = 0;
 };
 

@@ -2,7 +2,8 @@
 #pragma once
 #include "runtime/base/pose.h"
 
-namespace arift {
+namespace arift
+{
 
 /// The head (the VIEW frame: midway between the eyes) as the orientation filter sees it. Frame "origin": y up against gravity, never moved;
 /// recentring moves spaces, not samples. Position follows from the neck model and is not stored.
@@ -13,14 +14,12 @@ struct MotionSample {
 	XrVector3f angularAcceleration{0, 0, 0}; ///< rad/s^2, in head axes
 };
 
-/// The head turns about a pivot fixed in the origin frame, OpenXR axes, metres. ANSUR-88 neck to eye, as LibOVR 0.4 has it: 0.0805 forward, 0.075 up.
+/// The head turns about a pivot fixed in the origin frame, OpenXR axes, metres. ANSUR-88 neck to eye, as LibOVR 0.4 has it: 0.0805 forward,
+/// 0.075 up.
 struct NeckModel {
 	XrVector3f pivotInHead{0, -0.075f, 0.0805f};
 	/// The pose of the head when it has turned to `headInOrigin`; at identity the head is at the origin.
-	XrPosef head(const XrQuaternionf &headInOrigin) const
-	{
-		return {headInOrigin, pivotInHead - rotate(headInOrigin, pivotInHead)};
-	}
+	XrPosef head(const XrQuaternionf &headInOrigin) const { return {headInOrigin, pivotInHead - rotate(headInOrigin, pivotInHead)}; }
 	/// Velocity of the head's origin, in the origin frame, for an angular velocity in head axes.
 	XrVector3f headVelocity(const XrQuaternionf &headInOrigin, const XrVector3f &angularVelocity) const
 	{

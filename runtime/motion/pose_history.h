@@ -5,7 +5,8 @@
 #include <atomic>
 #include <cstddef>
 
-namespace arift {
+namespace arift
+{
 
 /// The shared memory itself: a ring of slots, each guarded by its own sequence word (odd while it is written). Nothing in it is trusted
 /// by readers: indices are clamped, loops bounded, a slot that stays torn is passed over for the one before.
@@ -24,7 +25,8 @@ static_assert(sizeof(MotionSample) <= PoseRing::slotWords * sizeof(uint64_t));
 static_assert(std::atomic<uint64_t>::is_always_lock_free);
 
 /// Writes; the tracker thread alone.
-class PoseWriter {
+class PoseWriter
+{
 public:
 	explicit PoseWriter(PoseRing &ring) : ring_(ring) {}
 	/// Times must rise; a sample that is not later than the newest is ignored.
@@ -36,11 +38,12 @@ private:
 };
 
 /// Reads; any thread, any process; no lock, no system call, no allocation.
-class PoseHistory {
+class PoseHistory
+{
 public:
 	explicit PoseHistory(const PoseRing &ring) : ring_(&ring) {}
-	/// Motion at `time`: between two samples interpolated (spherically), after the newest predicted by at most 100 ms (frozen beyond), `none`
-	/// before the oldest one kept or when nothing was ever pushed.
+	/// Motion at `time`: between two samples interpolated (spherically), after the newest predicted by at most 100 ms (frozen beyond),
+	/// `none` before the oldest one kept or when nothing was ever pushed.
 	HeadMotion at(XrTime time) const;
 	/// The newest sample, if there is one.
 	bool newest(MotionSample &sample) const;

@@ -1,4 +1,5 @@
 // A Rig file that somebody wrote. Input: the file.
+#include "runtime/base/error.h"
 #include "runtime/base/pose.h"
 #include "runtime/optics/rig.h"
 #include "tests/fuzz/input.h"

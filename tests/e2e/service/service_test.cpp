@@ -206,9 +206,7 @@ TEST_F(Running, AnApplicationDrawsFrameAfterFrame)
 	for (uint64_t i = 1; i <= 30; ++i) {
 		const auto ready = application.frame(i);
 		ASSERT_TRUE(ready);
-		if (last) {
-			EXPECT_NEAR(double(ready->predictedDisplayTime - last), double(ready->predictedDisplayPeriod), 1e5) << "frame " << i;
-		}
+		if (last) { EXPECT_NEAR(double(ready->predictedDisplayTime - last), double(ready->predictedDisplayPeriod), 1e5) << "frame " << i; }
 		last = ready->predictedDisplayTime;
 		EXPECT_EQ(ready->shouldRender, 1u);
 	}
@@ -307,9 +305,7 @@ TEST_F(Running, RandomBytesCloseOnlyTheirConnection)
 	for (const size_t size : {size_t(0), size_t(1), size_t(8), size_t(100), ipc::maxMessageSize + 1}) {
 		ipc::Socket socket = connectTo(service());
 		const std::vector<std::byte> bytes(size, std::byte(0xa5));
-		if (size > 0) {
-			ASSERT_GE(::send(socket.fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL), 0);
-		}
+		if (size > 0) { ASSERT_GE(::send(socket.fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL), 0); }
 		if (size == 0) socket.hangUp();
 		ipc::Received received;
 		EXPECT_EQ(socket.receive(received, realTime() + plenty), ipc::Transfer::hungUp) << size;

@@ -50,7 +50,8 @@ TEST(SteppedClock, GoesFromSleeperToSleeperInOrder)
 	}
 	a.join();
 	b.join();
-	const std::vector<std::pair<XrTime, char>> expected{{10, 'a'}, {17, 'b'}, {20, 'a'}, {30, 'a'}, {34, 'b'}, {40, 'a'}, {50, 'a'}, {51, 'b'}, {68, 'b'}, {85, 'b'}};
+	const std::vector<std::pair<XrTime, char>> expected{{10, 'a'}, {17, 'b'}, {20, 'a'}, {30, 'a'}, {34, 'b'},
+														{40, 'a'}, {50, 'a'}, {51, 'b'}, {68, 'b'}, {85, 'b'}};
 	EXPECT_EQ(woken, expected);
 }
 

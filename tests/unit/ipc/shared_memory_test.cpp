@@ -1,7 +1,7 @@
 #include "runtime/ipc/pages.h"
 #include "runtime/ipc/shared_memory.h"
-#include <cstring>
 #include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>

@@ -162,6 +162,8 @@ TEST(RigFile, DamagedFilesAreRefusedWithFileAndLine)
 		{"affine = [1.000052", "max_angle_degrees = 200\naffine = [1.000052", "cameras[1].max_angle_degrees = 200"},
 		{"affine = [1.000052", "skew = 0\naffine = [1.000052", "unknown key cameras[1].skew"},
 		{"version = 1", "version = = 1", ""},
+		{"[panel]", "[.panel]", "expected bare key"},
+		{"[panel]", "[panel", ""},
 	};
 	const tests::Scratch scratch;
 	const std::string good = tests::readAll(shipped);

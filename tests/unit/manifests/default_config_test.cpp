@@ -1,0 +1,66 @@
+// The commented configuration tells the truth: every setting in it is read by somebody, and stands there with its default.
+#include "drivers/synthetic/settings.h"
+#include "runtime/service/config.h"
+#include <algorithm>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <regex>
+#include <sstream>
+
+namespace arift
+{
+namespace
+{
+
+/// manifests/config.toml with the comment signs taken away from its settings, but not from those in `except`.
+std::filesystem::path uncommented(const std::string &name, const std::vector<std::string> &except)
+{
+	const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
+	std::ifstream in(MANIFESTS "/config.toml");
+	EXPECT_TRUE(in.is_open());
+	std::ofstream out(file);
+	static const std::regex setting("^#([a-z_]+) = ");
+	for (std::string line; std::getline(in, line);) {
+		std::smatch match;
+		const bool isSetting = std::regex_search(line, match, setting) && std::ranges::find(except, match[1].str()) == except.end();
+		out << (isSetting ? line.substr(1) : line) << '\n';
+	}
+	return file;
+}
+
+TEST(DefaultConfiguration, ReadsAsTheDefaults)
+{
+	const Config given = readConfig(uncommented("config.toml", {"rate"}), {}, {});
+	const Config defaults = readConfig({}, {}, {});
+	EXPECT_EQ(given.driver, defaults.driver);
+	EXPECT_EQ(given.rig, defaults.rig);
+	EXPECT_EQ(given.clock, defaults.clock);
+	EXPECT_EQ(given.passthroughDistance, defaults.passthroughDistance);
+	EXPECT_EQ(given.viewOffset, defaults.viewOffset);
+	EXPECT_EQ(given.blendModes, defaults.blendModes);
+	EXPECT_EQ(given.target, defaults.target);
+}
+
+TEST(DefaultConfiguration, TheSyntheticHeadsetsSettingsAreItsDefaults)
+{
+	const synthetic::Settings given = synthetic::readSettings(uncommented("synthetic.toml", {"motion_file"}));
+	const synthetic::Settings defaults;
+	EXPECT_EQ(given.motion, defaults.motion);
+	EXPECT_EQ(given.motionDelay, defaults.motionDelay);
+	EXPECT_EQ(given.seed, defaults.seed);
+	EXPECT_EQ(given.errors.noise, defaults.errors.noise);
+	EXPECT_EQ(given.errors.quantisation, defaults.errors.quantisation);
+	for (int i = 0; i < 3; ++i) EXPECT_NEAR(given.errors.angularVelocityBias[i], defaults.errors.angularVelocityBias[i], 1e-4);
+	EXPECT_EQ(given.trackerLatency, defaults.trackerLatency);
+	EXPECT_EQ(given.reportRate, defaults.reportRate);
+	EXPECT_EQ(given.cameraRate, defaults.cameraRate);
+	EXPECT_EQ(given.exposure, defaults.exposure);
+	EXPECT_EQ(given.cameraNoise, defaults.cameraNoise);
+	EXPECT_EQ(given.transferDelay, defaults.transferDelay);
+	EXPECT_EQ(given.cameraPhase, defaults.cameraPhase);
+	EXPECT_EQ(given.cameraJitter, defaults.cameraJitter);
+	EXPECT_EQ(given.blackLevel, defaults.blackLevel);
+}
+
+} // namespace
+} // namespace arift

@@ -1,0 +1,262 @@
+// The compositor's thread in simulated time, with a panel that draws nothing and a tracker and camera that this test plays.
+#include "runtime/compositor/compositor.h"
+#include "runtime/ipc/shared_memory.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <set>
+
+using namespace arift;
+
+namespace
+{
+
+constexpr XrDuration period = 16'691'704;
+constexpr Pacer::Settings pacing{.period = period};
+
+/// What a compositor under test has drawn.
+struct Drawn {
+	PanelInputs inputs;
+	XrTime latched = 0;
+};
+
+class FakePanel final : public Panel
+{
+public:
+	FakePanel(Clock &clock, Guarded<std::vector<Drawn>> &drawn) : clock_(clock), drawn_(drawn), target_(makeOffscreenTarget(clock, period))
+	{
+	}
+	void addImage(uint64_t key, VkImage, const gpu::ImageSpec &) override { EXPECT_TRUE(images_.insert(key).second); }
+	void removeImage(uint64_t key) override { EXPECT_EQ(images_.erase(key), 1u); }
+	void render(const PanelInputs &inputs) override
+	{
+		for (const PanelLayer &layer : inputs.layers)
+			if (layer.quad[0]) { EXPECT_TRUE(images_.contains(layer.quad[0]->texture.image)) << "an image the renderer was never told of"; }
+		drawn_.update([&](auto &all) { all.push_back({inputs, clock_.now()}); });
+	}
+	Target::Result present(const Pacer::Refresh &refresh) override { return target_->present(VK_NULL_HANDLE, {}, refresh); }
+	ReadbackImage readPanel() override { return {.width = 1, .height = 1, .pixels = std::vector<std::byte>(4)}; }
+	ReadbackImage renderEyes(const PanelInputs &) override { return {.width = 2, .height = 1, .pixels = std::vector<std::byte>(8)}; }
+
+private:
+	Clock &clock_;
+	Guarded<std::vector<Drawn>> &drawn_;
+	std::unique_ptr<Target> target_;
+	std::set<uint64_t> images_;
+};
+
+/// Shows one quad of one image, and notes what it is told.
+class FakeSource final : public FrameSource
+{
+public:
+	explicit FakeSource(uint64_t image)
+	{
+		auto made = std::make_shared<FrameContent>();
+		made->frame = 1;
+		made->blendMode = XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
+		made->layers.resize(1);
+		made->layers[0].quad[0] = QuadView{identityPose, {1, 1}, {.image = image}};
+		content_ = std::move(made);
+	}
+	void wake(const Opportunity &opportunity) override
+	{
+		wakes.update([&](auto &all) { all.push_back(opportunity); });
+	}
+	std::shared_ptr<const FrameContent> content() override { return content_; }
+	void shown(const std::shared_ptr<const FrameContent> &content) override { EXPECT_EQ(content, content_); }
+	Guarded<std::vector<Opportunity>> wakes{};
+
+private:
+	std::shared_ptr<const FrameContent> content_;
+};
+
+class CompositorTest : public testing::Test
+{
+protected:
+	CompositorTest() : clock_(makeSteppedClock(second)), start_(*clock_)
+	{
+		PoseWriter writer(*poses_);
+		writer.push({.time = clock_->now() - 5 * millisecond}); // at rest
+		compositor_ = std::make_unique<Compositor>(Surroundings{*clock_, rig_, PoseHistory(*poses_), *page_, {&feeds_[0], nullptr}},
+												   Pacer(pacing, clock_->now()), std::make_unique<FakePanel>(*clock_, drawn_));
+	}
+
+	/// Lets simulated time go on by so many refreshes, while this thread sleeps on the clock.
+	void run(int refreshes) { clock_->sleepUntil(clock_->now() + refreshes * period, {}); }
+	std::vector<Drawn> drawn() { return *drawn_.lock(); }
+
+	const Rig rig_{.eyeInHead = {identityPose, identityPose}, .cameras = {}};
+	std::unique_ptr<Clock> clock_;
+	Clock::Hold start_;
+	ipc::SharedPage<ipc::SystemPage> page_{"test"};
+	ipc::SharedPage<PoseRing> poses_{"test"};
+	std::array<CameraFeed, 2> feeds_;
+	Guarded<std::vector<Drawn>> drawn_{};
+	std::unique_ptr<Compositor> compositor_;
+};
+
+} // namespace
+
+TEST_F(CompositorTest, MakesOneImagePerRefreshAndMissesNone)
+{
+	run(100);
+	const FrameFigures figures = compositor_->figures(false);
+	EXPECT_NEAR(double(figures.shown), 99, 2);
+	EXPECT_EQ(figures.missed, 0u);
+	EXPECT_NEAR(figures.perSecond, 1 / inSeconds(period), 0.01);
+	const auto images = drawn();
+	for (size_t i = 1; i < images.size(); ++i)
+		EXPECT_NEAR(double(images[i].inputs.displayTime - images[i - 1].inputs.displayTime), double(period), 100);
+	// Composing takes no simulated time: once that is known, the latch lies margin and scan-out before the display.
+	EXPECT_NEAR(double(images.back().inputs.displayTime - images.back().latched), double(pacing.vblankToDisplay + pacing.margin), 100);
+	const auto timing = page_->timing.read();
+	ASSERT_TRUE(timing);
+	EXPECT_NEAR(double(timing->latchBeforeDisplay), double(pacing.vblankToDisplay + pacing.margin), 100);
+}
+
+TEST_F(CompositorTest, LinesAreSeenOneAfterTheOther)
+{
+	PoseWriter writer(*poses_);
+	writer.push({.time = clock_->now(), .angularVelocity = {0, 1, 0}}); // one radian a second to the left
+	run(2);
+	const PanelInputs inputs = drawn().front().inputs;
+	const double turned = angleBetween(inputs.top[0].headInOrigin.orientation, inputs.bottom[0].headInOrigin.orientation);
+	EXPECT_NEAR(turned, inSeconds(rig_.timing.lineTime) * 799, 2e-5);
+}
+
+TEST_F(CompositorTest, ApplicationsAreWokenForTheImageAfter)
+{
+	compositor_->addImage(5, VkImage(1), {}, nullptr);
+	auto source = std::make_shared<FakeSource>(5);
+	compositor_->addSource(source);
+	run(20);
+	const auto wakes = *source->wakes.lock();
+	const auto images = drawn();
+	ASSERT_GE(wakes.size(), 18u);
+	for (size_t i = 1; i + 1 < images.size(); ++i) { // the first was planned before the cost of composing was known
+		EXPECT_EQ(wakes[i].displayTime, images[i + 1].inputs.displayTime);
+		EXPECT_EQ(wakes[i].latch, images[i + 1].latched) << "what is there by then is shown then";
+	}
+	EXPECT_EQ(images.back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ADDITIVE);
+	compositor_->removeSource(*source);
+	run(2);
+	EXPECT_TRUE(drawn().back().inputs.layers.empty());
+	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND);
+}
+
+TEST_F(CompositorTest, ALayerWhoseImageIsGoneIsNotDrawn)
+{
+	auto owner = std::make_shared<int>(1);
+	compositor_->addImage(5, VkImage(1), {}, owner);
+	compositor_->addSource(std::make_shared<FakeSource>(5));
+	run(3);
+	EXPECT_TRUE(drawn().back().inputs.layers.at(0).quad[0]);
+	EXPECT_GT(owner.use_count(), 1);
+	compositor_->removeImage(5);
+	run(2);
+	EXPECT_FALSE(drawn().back().inputs.layers.at(0).quad[0]);
+	EXPECT_EQ(owner.use_count(), 1) << "the compositor has let go of it";
+}
+
+TEST_F(CompositorTest, PicturesAreHandedOut)
+{
+	std::jthread world([&, hold = Clock::Hold(*clock_)](std::stop_token stop) {
+		while (!stop.stop_requested()) clock_->sleepUntil(clock_->now() + period, stop);
+	});
+	std::optional<Picture> panel, eyes;
+	std::thread monitor([&] { // holds no clock, as in the service
+		panel = compositor_->picture(ipc::PictureKind::panel, 10 * second);
+		eyes = compositor_->picture(ipc::PictureKind::eyes, 10 * second);
+	});
+	while (!eyes && clock_->now() < 1000 * second) run(1);
+	monitor.join();
+	ASSERT_TRUE(panel && eyes);
+	EXPECT_EQ(panel->image.width, 1u);
+	EXPECT_EQ(eyes->image.width, 2u);
+	EXPECT_GT(eyes->displayTime, panel->displayTime);
+}
+
+TEST_F(CompositorTest, FiguresBeginAnewAfterAReset)
+{
+	run(10);
+	EXPECT_GE(compositor_->figures(true).shown, 8u);
+	EXPECT_EQ(compositor_->figures(false).shown, 0u);
+}
+
+// ---- the record
+
+TEST(FrameRecord, CountsRefreshesWithoutAnImage)
+{
+	FrameRecord record;
+	for (const int refresh : {0, 1, 2, 5, 6}) record.add({.displayTime = second + refresh * period, .period = period});
+	const FrameFigures figures = record.figures();
+	EXPECT_EQ(figures.shown, 5u);
+	EXPECT_EQ(figures.missed, 2u);
+	EXPECT_NEAR(figures.perSecond, 4 / (6 * inSeconds(period)), 1e-9);
+}
+
+TEST(FrameRecord, MediansAndNinetyNinthPercentile)
+{
+	FrameRecord record;
+	for (int i = 1; i <= 100; ++i)
+		record.add({.displayTime = i * period,
+					.period = period,
+					.cameraAge = {i * millisecond, std::nullopt},
+					.poseAge = 2 * i * millisecond,
+					.composeCost = millisecond});
+	const FrameFigures figures = record.figures();
+	EXPECT_DOUBLE_EQ(figures.cameraAge.median, 50);
+	EXPECT_DOUBLE_EQ(figures.cameraAge.p99, 99);
+	EXPECT_DOUBLE_EQ(figures.poseAge.median, 100);
+	EXPECT_DOUBLE_EQ(figures.compose.p99, 1);
+}
+
+TEST(FrameRecord, KeepsTheNewestAndAllTotals)
+{
+	FrameRecord record;
+	for (size_t i = 0; i < 2 * FrameRecord::kept; ++i)
+		record.add({.displayTime = XrTime(i) * period, .period = period, .composeCost = i < FrameRecord::kept ? second : millisecond});
+	EXPECT_EQ(record.figures().shown, 2 * FrameRecord::kept);
+	EXPECT_DOUBLE_EQ(record.figures().compose.p99, 1) << "the old ones are gone";
+	EXPECT_EQ(FrameRecord().figures().shown, 0u);
+	EXPECT_EQ(FrameRecord().figures().compose.median, 0);
+}
+
+// ---- camera timing
+
+TEST(CameraTimingEstimate, FindsPeriodPhaseAndDelayThroughJitterAndLoss)
+{
+	CameraTimingEstimate estimate;
+	constexpr XrDuration cameraPeriod = 23'255'814, delay = 25 * millisecond;
+	uint64_t sequence = 0;
+	for (int i = 0; i < 60; ++i) {
+		sequence += i % 7 == 3 ? 2 : 1; // lost images count
+		const XrDuration jitter = (i * 7919 % 13 - 6) * 20 * microsecond;
+		const XrDuration late = i % 20 == 11 ? 12 * millisecond : 0; // a slow transfer now and then
+		const XrTime middle = second + XrTime(sequence) * cameraPeriod + jitter;
+		estimate.add(sequence, middle, middle + delay + late);
+	}
+	const ipc::CameraTiming timing = estimate.timing();
+	EXPECT_NEAR(double(timing.period), double(cameraPeriod), 10'000);
+	EXPECT_NEAR(double(timing.delay), double(delay), 1e5);
+	const double beat = std::fmod(double(timing.reference - second), double(cameraPeriod)) / double(cameraPeriod);
+	EXPECT_LT(std::min(beat, 1 - beat), 0.003);
+}
+
+TEST(CameraTimingEstimate, ForgetsACameraThatWasRestarted)
+{
+	CameraTimingEstimate estimate;
+	for (int i = 1; i < 10; ++i) estimate.add(i, i * second, i * second);
+	estimate.add(1, 20 * second, 20 * second);
+	EXPECT_EQ(estimate.timing().period, 0) << "one image says nothing of a period";
+}
+
+TEST(CameraFeed, ALostCameraHasNoImage)
+{
+	CameraFeed feed;
+	feed.put({.frame = {.midExposure = 1, .sequence = 1}}, 2);
+	EXPECT_TRUE(feed.newest());
+	feed.lose();
+	EXPECT_FALSE(feed.newest());
+	EXPECT_EQ(feed.timing().period, 0);
+	EXPECT_EQ(feed.received(), 1u);
+}

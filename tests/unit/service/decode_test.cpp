@@ -1,0 +1,170 @@
+#include "runtime/base/pose.h"
+#include "runtime/service/decode.h"
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+
+using namespace arift;
+
+namespace
+{
+
+constexpr SwapchainShape shape{640, 480, 2, 3};
+const FindSwapchain find = [](uint32_t swapchain) { return swapchain == 1 ? std::optional(shape) : std::nullopt; };
+
+template <typename M> ipc::Received bytesOf(const M &message)
+{
+	ipc::Received received;
+	received.size = ipc::wireSize(message);
+	std::memcpy(received.bytes.data(), &message, received.size);
+	return received;
+}
+
+ipc::LayerView wholeView()
+{
+	ipc::LayerView view;
+	view.fov = {-0.7f, 0.7f, 0.7f, -0.7f};
+	view.image.swapchain = 1;
+	view.image.width = 640;
+	view.image.height = 480;
+	return view;
+}
+
+ipc::Submission good()
+{
+	ipc::Submission submission;
+	submission.frame = 1;
+	submission.blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
+	submission.layerCount = 2;
+	submission.layers[0].views = {wholeView(), wholeView()};
+	submission.layers[1].type = ipc::LayerType::quad;
+	submission.layers[1].views[0] = wholeView();
+	submission.layers[1].width = 1;
+	submission.layers[1].height = 0.5f;
+	return submission;
+}
+
+bool accepted(const ipc::Submission &submission)
+{
+	try {
+		decodeFrameRequest(bytesOf(submission), find);
+		return true;
+	} catch (const Malformed &) {
+		return false;
+	}
+}
+
+template <typename M> bool acceptedRequest(const M &message)
+{
+	try {
+		decodeRequest(bytesOf(message));
+		return true;
+	} catch (const Malformed &) {
+		return false;
+	}
+}
+
+} // namespace
+
+TEST(DecodeSubmission, WhatIsWellFormedPasses)
+{
+	const FrameRequest request = decodeFrameRequest(bytesOf(good()), find);
+	const auto &submission = std::get<ipc::Submission>(request);
+	EXPECT_EQ(submission.layerCount, 2u);
+	EXPECT_EQ(submission.layers[1].height, 0.5f);
+	ipc::Submission empty;
+	empty.blendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+	EXPECT_TRUE(accepted(empty));
+}
+
+TEST(DecodeSubmission, EveryHostileFieldIsRefused)
+{
+	const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+	using Change = void (*)(ipc::Submission &, float, float);
+	const struct {
+		const char *name;
+		Change change;
+	} cases[] = {
+		{"unknown swapchain", [](auto &s, float, float) { s.layers[0].views[0].image.swapchain = 2; }},
+		{"unknown swapchain of the right eye", [](auto &s, float, float) { s.layers[0].views[1].image.swapchain = 0; }},
+		{"image index", [](auto &s, float, float) { s.layers[0].views[1].image.image = 3; }},
+		{"array index", [](auto &s, float, float) { s.layers[0].views[0].image.arrayIndex = 2; }},
+		{"negative origin", [](auto &s, float, float) { s.layers[0].views[0].image.x = -1; }},
+		{"too wide", [](auto &s, float, float) { s.layers[0].views[0].image.width = 641; }},
+		{"beyond the edge", [](auto &s, float, float) { s.layers[0].views[0].image.y = 1; }},
+		{"sum that wraps", [](auto &s, float, float) { s.layers[0].views[0].image.x = s.layers[0].views[0].image.width = 0x7fffffff; }},
+		{"empty rectangle", [](auto &s, float, float) { s.layers[1].views[0].image.height = 0; }},
+		{"layer type", [](auto &s, float, float) { s.layers[0].type = ipc::LayerType(2); }},
+		{"layer frame", [](auto &s, float, float) { s.layers[0].frame = ipc::LayerFrame(7); }},
+		{"eyes", [](auto &s, float, float) { s.layers[1].eyes = 4; }},
+		{"NaN position", [](auto &s, float n, float) { s.layers[0].views[0].pose.position.x = n; }},
+		{"position out of this world", [](auto &s, float, float) { s.layers[0].views[0].pose.position.x = 1e30f; }},
+		{"orientation that is no unit",
+		 [](auto &s, float, float) {
+			 s.layers[0].views[1].pose.orientation = {0, 0, 0, 2};
+		 }},
+		{"NaN angle", [](auto &s, float n, float) { s.layers[0].views[0].fov.angleUp = n; }},
+		{"angle beyond a half space", [](auto &s, float, float) { s.layers[0].views[0].fov.angleUp = 1.6f; }},
+		{"field of view without width", [](auto &s, float, float) { s.layers[0].views[0].fov.angleLeft = 0.7f; }},
+		{"infinite quad", [](auto &s, float, float i) { s.layers[1].width = i; }},
+		{"negative quad", [](auto &s, float, float) { s.layers[1].height = -1; }},
+		{"blend mode", [](auto &s, float, float) { s.blendMode = 9; }},
+	};
+	for (const auto &[name, change] : cases) {
+		ipc::Submission submission = good();
+		change(submission, nan, infinity);
+		EXPECT_FALSE(accepted(submission)) << name;
+	}
+}
+
+TEST(DecodeSubmission, ItsLengthIsThatOfItsLayers)
+{
+	ipc::Received received = bytesOf(good());
+	received.size -= 1;
+	EXPECT_THROW(decodeFrameRequest(received, find), Malformed);
+	received.size = offsetof(ipc::Submission, layers) - 1;
+	EXPECT_THROW(decodeFrameRequest(received, find), Malformed);
+	received = bytesOf(good());
+	const uint32_t many = ipc::maxLayers + 1;
+	std::memcpy(received.bytes.data() + offsetof(ipc::Submission, layerCount), &many, sizeof(many));
+	EXPECT_THROW(decodeFrameRequest(received, find), Malformed);
+}
+
+TEST(DecodeRequest, KnowsItsMessagesAndNoOthers)
+{
+	EXPECT_TRUE(std::holds_alternative<ipc::Recenter>(decodeRequest(bytesOf(ipc::Recenter{}))));
+	ipc::Received received = bytesOf(ipc::Recenter{});
+	received.size = 3;
+	EXPECT_THROW(decodeRequest(received), Malformed) << "shorter than a header";
+	received = bytesOf(ipc::Recenter{});
+	received.size++;
+	EXPECT_THROW(decodeRequest(received), Malformed) << "longer than the message";
+	EXPECT_THROW(decodeRequest(bytesOf(ipc::Welcome{})), Malformed) << "a reply is no request";
+	EXPECT_THROW(decodeRequest(bytesOf(ipc::WaitFrame{})), Malformed) << "belongs to the frame channel";
+	EXPECT_THROW(decodeFrameRequest(bytesOf(ipc::Recenter{}), find), Malformed);
+}
+
+TEST(DecodeRequest, ValuesOutOfRangeAreRefused)
+{
+	EXPECT_TRUE(acceptedRequest(ipc::Hello{}));
+	EXPECT_FALSE(acceptedRequest(ipc::Hello{.magic = 1}));
+	EXPECT_FALSE(acceptedRequest(ipc::Hello{.role = ipc::Role(2)}));
+	EXPECT_FALSE(acceptedRequest(ipc::SessionRunning{.running = 2}));
+	ipc::CreateSwapchain swapchain;
+	swapchain.spec.width = swapchain.spec.height = 64;
+	EXPECT_TRUE(acceptedRequest(swapchain));
+	const auto refused = [&](auto change) {
+		ipc::CreateSwapchain bad = swapchain;
+		change(bad);
+		return !acceptedRequest(bad);
+	};
+	EXPECT_TRUE(refused([](auto &s) { s.imageCount = 0; }));
+	EXPECT_TRUE(refused([](auto &s) { s.imageCount = ipc::maxImages + 1; }));
+	EXPECT_TRUE(refused([](auto &s) { s.spec.width = 0; }));
+	EXPECT_TRUE(refused([](auto &s) { s.spec.height = Quota::extent + 1; }));
+	EXPECT_TRUE(refused([](auto &s) { s.spec.samples = 3; }));
+	EXPECT_TRUE(refused([](auto &s) { s.spec.arrayLayers = 0; }));
+	EXPECT_FALSE(acceptedRequest(ipc::SetSetting{.value = std::nanf("")}));
+	EXPECT_FALSE(acceptedRequest(ipc::SetSetting{.setting = ipc::Setting(2)}));
+	EXPECT_FALSE(acceptedRequest(ipc::Screenshot{.kind = ipc::PictureKind(2)}));
+}
