@@ -29,6 +29,8 @@ target = "offscreen"
 [synthetic]
 motion = "rest"
 tracker_noise = false
+tracker_quantisation = false
+gyro_bias = [0.0, 0.0, 0.0]
 camera_noise = false
 )";
 
@@ -97,28 +99,52 @@ protected:
 	void SetUp() override
 	{
 		service_.emplace(quietWorld);
+		awaitOpenHeadset();
 		before_ = pictureOfTheWorld();
 	}
 
-	/// Two pictures alike: the camera images have come and faded in.
+	/// Opening takes long on a busy machine, above all under the validation layer.
+	void awaitOpenHeadset()
+	{
+		const auto deadline = std::chrono::steady_clock::now() + 180s;
+		for (;;) {
+			try {
+				service_->status();
+				return;
+			} catch (const std::runtime_error &) { // it says that the headset is not open yet
+				if (std::chrono::steady_clock::now() > deadline || !service_->process().running()) throw;
+			}
+		}
+	}
+
+	/// Two pictures alike, behind the first second: the camera images have come and faded in.
 	PanelPicture pictureOfTheWorld()
 	{
+		const auto deadline = std::chrono::steady_clock::now() + 60s;
 		PanelPicture last = service_->screenshot();
-		const auto deadline = std::chrono::steady_clock::now() + 30s;
 		while (std::chrono::steady_clock::now() < deadline) {
 			std::this_thread::sleep_for(100ms);
 			PanelPicture next = service_->screenshot();
-			if (next.rgba == last.rgba && service_->status()["frames"]["shown"] > 60) return next;
+			if (!firstPicture_) firstPicture_ = next.displayTime;
+			if (next.displayTime - *firstPicture_ > 2 * second && alike(last, next)) return next;
 			last = std::move(next);
 		}
 		ADD_FAILURE() << "the panel does not come to rest though nothing moves";
 		return last;
 	}
 
+	static bool alike(const PanelPicture &a, const PanelPicture &b)
+	{
+		if (a.rgba.size() != b.rgba.size()) return false;
+		size_t different = 0;
+		for (size_t i = 0; i < a.rgba.size(); ++i) different += std::abs(a.rgba[i] - b.rgba[i]) > 3 ? 1 : 0;
+		return different < a.rgba.size() / 1000;
+	}
+
 	/// Waits until the panel has shown that many frames of the application called `name`.
 	void awaitFrames(Application &application, const std::string &name)
 	{
-		const auto deadline = std::chrono::steady_clock::now() + 60s;
+		const auto deadline = std::chrono::steady_clock::now() + 150s;
 		uint64_t shown = 0;
 		while (shown < enoughFrames && std::chrono::steady_clock::now() < deadline) {
 			ASSERT_TRUE(application.process().running()) << application.output();
@@ -166,7 +192,7 @@ protected:
 		});
 		EXPECT_GT(grey, 0.4) << "of the panel is in hello_xr's clear colour";
 		hello.pressKey();
-		const auto status = hello.process().wait(20s);
+		const auto status = hello.process().wait(60s);
 		ASSERT_TRUE(status.has_value()) << "hello_xr does not end";
 		EXPECT_EQ(*status, 0) << hello.output();
 		expectSilence(hello);
@@ -174,6 +200,7 @@ protected:
 
 	std::optional<PrivateService> service_;
 	PanelPicture before_;
+	std::optional<XrTime> firstPicture_;
 };
 
 TEST_F(Applications, HelloXrVulkanOpaque) { runHelloXr("Vulkan", "Opaque"); }
@@ -202,13 +229,13 @@ TEST_F(Applications, HologramCubeStandsInTheWorld)
 	ASSERT_TRUE(status.has_value()) << "hologram_cube does not end on SIGTERM";
 	EXPECT_EQ(*status, 0) << cube.output();
 	expectSilence(cube);
-	EXPECT_EQ(pictureOfTheWorld().rgba, before_.rgba) << "when the application has gone, the world is as before";
+	EXPECT_TRUE(alike(pictureOfTheWorld(), before_)) << "when the application has gone, the world is as before";
 }
 
 TEST_F(Applications, HologramCubeEndsByItselfWhenTheTimeIsUp)
 {
 	Application cube(*service_, "hologram_cube", (programDirectory() / "hologram_cube").string() + " --seconds 1");
-	const auto status = cube.process().wait(40s);
+	const auto status = cube.process().wait(120s);
 	ASSERT_TRUE(status.has_value());
 	EXPECT_EQ(*status, 0) << cube.output();
 	expectSilence(cube);

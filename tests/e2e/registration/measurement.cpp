@@ -16,7 +16,7 @@ namespace
 
 constexpr double degree = M_PI / 180;
 constexpr double angularRadius = 0.021; // of the red disc, tangent: eight panel pixels
-constexpr double settled = 1.5;         // seconds after which the head turns at its constant rate
+constexpr double settled = 0.7;         // seconds: longer than the head rests at first and needs to reach its rate
 constexpr int limitSeconds = 240;       // real time, for one figure
 
 /// In every direction all around, some above and below the horizon; each faced by a head that turns about the neck at its distance.
@@ -42,7 +42,7 @@ std::string configuration(const Scenario &scenario)
 		text << "motion = \"rest\"\n";
 	else
 		text << "motion = \"constant\"\nrate = [0.0, " << scenario.degreesPerSecond << ", 0.0]\n";
-	text << "motion_delay = 1.0\ntracker_noise = false\ntracker_quantisation = false\ngyro_bias = [0.0, 0.0, 0.0]\ncamera_noise = false\n"
+	text << "motion_delay = 0.3\ntracker_noise = false\ntracker_quantisation = false\ngyro_bias = [0.0, 0.0, 0.0]\ncamera_noise = false\n"
 		 << "transfer_delay_ms = " << scenario.delayMs << "\n";
 	for (const Eigen::Vector3d &place : markerPlaces(scenario.distance))
 		text << "[[synthetic.markers]]\nposition = [" << place.x() << ", " << place.y() << ", " << place.z()
@@ -126,8 +126,8 @@ Figures Measurement::measure(const Setting &setting, size_t pictures)
 		// Until holograms are there, and a few frames after settings have changed, nothing counts; nor while the head speeds up.
 		const bool holograms = !findSpots(picture, lens_, 0, 2).empty() || !findSpots(picture, lens_, 1, 2).empty();
 		if (first == 0 && holograms) first = newest;
-		const double wait = last_.rgba.empty() ? settled + 1.0 : 0.15;
-		if (first == 0 || inSeconds(newest - first) < (scenario_.degreesPerSecond == 0 && scenario_.motion.empty() ? 0.3 : wait)) {
+		const double wait = last_.rgba.empty() ? settled : 0.1;
+		if (first == 0 || inSeconds(newest - first) < wait) {
 			if (++tries > 5000) throw std::runtime_error("no hologram is in any picture");
 			continue;
 		}

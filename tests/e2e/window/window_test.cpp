@@ -113,12 +113,14 @@ protected:
 
 TEST_F(Window, ShowsThePanel)
 {
-	const std::vector<std::string> settings{"headset.driver=synthetic", "compositor.target=window", "synthetic.motion=rest",
-											"synthetic.tracker_noise=false", "synthetic.camera_noise=false"};
+	const std::vector<std::string> settings{
+		"headset.driver=synthetic",           "compositor.target=window",     "synthetic.motion=rest",
+		"synthetic.tracker_noise=false",      "synthetic.camera_noise=false", "synthetic.tracker_quantisation=false",
+		"synthetic.gyro_bias=[0.0, 0.0, 0.0]"};
 	std::vector<std::string> command{(programDirectory() / "arift-service").string()};
 	for (const std::string &setting : settings) command.insert(command.end(), {"--set", setting});
 	ChildProcess service(command, environment(), tree_.root() / "service.log");
-	ASSERT_TRUE(await(60s, [&] { return shown() > 60; })) << service.output();
+	ASSERT_TRUE(await(180s, [&] { return shown() > 60; })) << service.output();
 
 	const std::filesystem::path picture = tree_.root() / "panel.png";
 	const XClient client(display_);
@@ -130,7 +132,7 @@ TEST_F(Window, ShowsThePanel)
 		for (size_t i = 0; i < panel.size() && window.size() == panel.size(); ++i) different += std::abs(window[i] - panel[i]) > 2;
 		return !panel.empty() && window.size() == panel.size() && different < panel.size() / 1000;
 	};
-	EXPECT_TRUE(await(30s, same)) << service.output();
+	EXPECT_TRUE(await(60s, same)) << service.output();
 	const Pixels window = client.panelWindow();
 	EXPECT_GT(std::ranges::count_if(window, [](uint8_t value) { return value > 40; }), std::ptrdiff_t(window.size() / 10))
 		<< "something can be seen";
@@ -144,7 +146,7 @@ TEST_F(Window, WithoutTheDisplayItNamesTheServiceSaysSo)
 	ChildProcess service(
 		{(programDirectory() / "arift-service").string(), "--set", "headset.driver=synthetic", "--set", "compositor.target=window"},
 		without, tree_.root() / "service.log");
-	EXPECT_TRUE(await(60s, [&] { return service.output().find("DISPLAY") != std::string::npos; })) << service.output();
+	EXPECT_TRUE(await(180s, [&] { return service.output().find("DISPLAY") != std::string::npos; })) << service.output();
 }
 
 } // namespace
