@@ -10,7 +10,7 @@ namespace arift
 namespace
 {
 
-constexpr XrDuration openingLimit = 15 * second;
+constexpr XrDuration openingLimit = 60 * second; // a second or two, but much more on a machine that is busy otherwise
 
 std::atomic<uint32_t> nextSession{1};
 

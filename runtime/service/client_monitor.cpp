@@ -11,7 +11,7 @@ namespace arift
 namespace
 {
 
-constexpr XrDuration openingLimit = 15 * second, pictureLimit = 10 * second;
+constexpr XrDuration openingLimit = 60 * second, pictureLimit = 10 * second;
 
 } // namespace
 

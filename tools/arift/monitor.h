@@ -20,7 +20,7 @@ public:
 	}
 
 private:
-	static constexpr XrDuration limit = 20 * second; // opening devices and a picture of a slow renderer included
+	static constexpr XrDuration limit = 75 * second; // opening devices and a picture of a slow renderer included
 	ipc::Requests requests_;
 };
 
