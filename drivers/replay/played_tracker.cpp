@@ -14,7 +14,10 @@ PlayedTracker::PlayedTracker(Clock &clock, XrTime start, ImuPlayback playback)
 	while (timeOf(next_) <= now && (playback_.loop || next_ < playback_.samples.size())) next_++;
 }
 
-ImuInfo PlayedTracker::info() const { return {.name = playback_.name, .tickPeriod = 1 / playback_.rate, .sampleRate = playback_.rate}; }
+ImuInfo PlayedTracker::info() const
+{
+	return {.name = playback_.name, .tickPeriod = 1 / playback_.rate, .sampleRate = playback_.rate, .isWorn = false};
+}
 
 XrTime PlayedTracker::timeOf(uint64_t index) const
 {

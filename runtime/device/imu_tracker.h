@@ -33,6 +33,7 @@ struct ImuInfo {
 	std::string name;         ///< for people: "Oculus Rift DK1 tracker AAAAAAAAAAAA"
 	double tickPeriod = 1e-3; ///< nominal seconds per tick
 	double sampleRate = 1000; ///< nominal samples per second
+	bool isWorn = true;       ///< on a head, which turns about its neck; false for the recording of something carried otherwise
 	uint64_t malformed = 0;   ///< reports dropped so far because they could not be decoded
 };
 

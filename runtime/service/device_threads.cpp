@@ -12,6 +12,14 @@ namespace
 /// Reads are asked to end this often even when nothing comes, so that figures stay fresh.
 constexpr XrDuration readLimit = second;
 
+/// The tracker is taken to be where the head's origin is: Rigs do not say more, and it is within centimetres of that.
+HeadTrackerSettings trackingOf(const Rig &rig, const ImuInfo &info)
+{
+	HeadTrackerSettings settings;
+	if (info.isWorn) settings.leverInHead = -toGlm(rig.pivotInHead);
+	return settings;
+}
+
 } // namespace
 
 void RateMeter::add(XrTime time, uint32_t events)
@@ -158,7 +166,7 @@ void Headset::TrackerThread::run(std::stop_token stop)
 			reopened = true;
 			continue;
 		}
-		if (!motion) motion.emplace(tracker_->info(), rig_.imu, writer);
+		if (!motion) motion.emplace(tracker_->info(), rig_.imu, writer, trackingOf(rig_, tracker_->info()));
 		ImuReport report;
 		switch (tracker_->read(report, clock_.now() + readLimit, stop)) {
 		case Outcome::timeout: break;

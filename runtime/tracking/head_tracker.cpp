@@ -56,6 +56,7 @@ void HeadTracker::addSample(const ImuSample &sample)
 	if (!continues_) {
 		filter_.interrupt();
 		fit_.reset();
+		turnAcceleration_ = glm::dvec3(0);
 	} else if (begin > lastTick_) {
 		bridge(begin - lastTick_, rate);
 	}
@@ -65,7 +66,7 @@ void HeadTracker::addSample(const ImuSample &sample)
 	lastTick_ = sample.tick;
 	lastRate_ = rate;
 	sinceField_ += period;
-	filter_.update(rate, corrected(calibration_.accelerometer, sample.acceleration), period);
+	filter_.update(rate, corrected(calibration_.accelerometer, sample.acceleration) - forceOfTurning(rate), period);
 	publish(sample.tick, rate, period);
 }
 
@@ -85,12 +86,21 @@ void HeadTracker::correctHeading(const XrVector3f &field)
 	if (first) magneticStart_ = magnetic_.heading();
 }
 
+/// The neck model's part of the specific force, in the tracker's axes: 200 degrees a second about the neck are 1.3 m/s^2, 8 degrees of tilt
+/// for whoever takes them for gravity.
+glm::dvec3 HeadTracker::forceOfTurning(const glm::dvec3 &rate) const
+{
+	const glm::dvec3 turn = imuInHead_ * (rate - filter_.bias()), &lever = settings_.leverInHead;
+	return headInImu_ * (glm::cross(turnAcceleration_, lever) + glm::cross(turn, glm::cross(turn, lever)));
+}
+
 void HeadTracker::publish(int64_t tick, const glm::dvec3 &rate, double period)
 {
 	++health_.samples;
 	health_.bias = filter_.bias();
 	health_.resting = filter_.state().resting;
 	const RateFit::Motion motion = fit_.add(imuInHead_ * (rate - filter_.bias()), period);
+	turnAcceleration_ = motion.acceleration;
 	const XrTime time = clock_.timeOf(tick);
 	if (!filter_.state().settled) return; // no acceleration yet: nobody knows where up is
 	const glm::dquat headInEarth = aboutVertical(magnetic_.heading() - magneticStart_) * filter_.orientation() * headInImu_;

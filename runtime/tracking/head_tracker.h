@@ -15,6 +15,9 @@ struct HeadTrackerSettings {
 	OrientationParameters orientation;
 	MagneticParameters magnetic;
 	bool magneticHeading = false; ///< indoors a heading that drifts slowly is better than one that is pulled about
+	/// Metres, head axes, from the pivot in the neck to the tracker: what turning about the pivot accelerates is no sign of where up is.
+	/// Zero where the tracker does not turn about one.
+	glm::dvec3 leverInHead{0};
 };
 
 struct TrackerHealth {
@@ -44,6 +47,7 @@ private:
 	void addSample(const ImuSample &sample);
 	void bridge(int64_t lostTicks, const glm::dvec3 &rate);
 	void correctHeading(const XrVector3f &field);
+	glm::dvec3 forceOfTurning(const glm::dvec3 &rate) const;
 	void publish(int64_t tick, const glm::dvec3 &rate, double period);
 
 	ImuCalibration calibration_;
@@ -55,6 +59,7 @@ private:
 	OrientationFilter filter_;
 	MagneticHeading magnetic_;
 	RateFit fit_;
+	glm::dvec3 turnAcceleration_{0};    ///< rad/s^2, head axes, at the last sample
 	bool started_ = false;              ///< the first sample has set the heading
 	glm::dquat originTurn_{1, 0, 0, 0}; ///< the filter's earth (z up, arbitrary heading) in the origin frame
 	double magneticStart_ = 0;          ///< the first magnetic heading: the origin does not turn to north

@@ -231,3 +231,26 @@ TEST_F(HeadTrackerTest, MagneticHeadingDoesNotTurnTheOrigin)
 	}
 	EXPECT_LT(errorNow(), 0.01);
 }
+
+// A head speeds up to 200 degrees a second about its neck within a quarter of a second, shortly after the filter has started: the tracker
+// feels 2.5 m/s^2 along and 1.3 m/s^2 across, and must not take them for a tilt.
+TEST_F(HeadTrackerTest, TurningAboutTheNeckIsNoTilt)
+{
+	const glm::dvec3 lever(0, 0.075, -0.0805);
+	const double full = 200 * degree, rise = 0.25;
+	const auto rateAt = [&](double time) {
+		const double s = (time - 0.3) / rise;
+		return s <= 0 ? 0 : s >= 1 ? full : full * (1 - std::cos(M_PI * s)) / 2;
+	};
+	make({}, {}, {.leverInHead = lever});
+	for (int i = 1; i < 3000; ++i) {
+		const double time = i * 1e-3, step = 1e-4;
+		ImuSample sample = turn([&](double at) { return XrVector3f{0, float(rateAt(at)), 0}; });
+		const glm::dvec3 rate(0, rateAt(time), 0), change(0, (rateAt(time + step) - rateAt(time - step)) / (2 * step), 0);
+		sample.acceleration = sample.acceleration + toXr(glm::cross(change, lever) + glm::cross(rate, glm::cross(rate, lever)));
+		send(sample);
+		const glm::dquat tilt = toGlm(inverse(history.at(now()).at.headInOrigin)) * truth;
+		EXPECT_LT(2 * std::hypot(tilt.x, tilt.z) / degree, 0.1) << "after " << time << " s";
+		if (HasFailure()) return;
+	}
+}
