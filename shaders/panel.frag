@@ -12,6 +12,24 @@ layout(constant_id = 5) const bool hasLayer = false;
 layout(constant_id = 6) const bool throughLens = true;       // false: the eye's image before the lens correction
 layout(constant_id = 7) const bool redItself = false;        // red is evaluated, not derived from green and blue
 
+// What the Rig decides is constant too: for a software renderer every number read from a block costs as much as an operation.
+#define ARIFT_NUMBER(id, name) layout(constant_id = id) const float name = 0.0;
+ARIFT_NUMBER(8, d0) ARIFT_NUMBER(9, d1) ARIFT_NUMBER(10, d2) ARIFT_NUMBER(11, d3)
+ARIFT_NUMBER(12, d4) ARIFT_NUMBER(13, d5) ARIFT_NUMBER(14, d6) ARIFT_NUMBER(15, d7)
+ARIFT_NUMBER(16, d8) ARIFT_NUMBER(17, d9) ARIFT_NUMBER(18, d10) ARIFT_NUMBER(19, d11)
+ARIFT_NUMBER(20, d12) ARIFT_NUMBER(21, d13) ARIFT_NUMBER(22, d14) ARIFT_NUMBER(23, d15)
+ARIFT_NUMBER(24, lensVectorPerPixel) ARIFT_NUMBER(25, largestR2) ARIFT_NUMBER(26, rimScale) ARIFT_NUMBER(27, fillScale)
+ARIFT_NUMBER(28, blue0) ARIFT_NUMBER(29, blue1) ARIFT_NUMBER(30, red0) ARIFT_NUMBER(31, red1)
+ARIFT_NUMBER(32, redFromBlue0) ARIFT_NUMBER(33, redFromBlue1) ARIFT_NUMBER(34, g0) ARIFT_NUMBER(35, g1)
+ARIFT_NUMBER(36, g2) ARIFT_NUMBER(37, g3) ARIFT_NUMBER(38, g4) ARIFT_NUMBER(39, g5)
+ARIFT_NUMBER(40, g6) ARIFT_NUMBER(41, g7) ARIFT_NUMBER(42, g8) ARIFT_NUMBER(43, g9)
+ARIFT_NUMBER(44, g10) ARIFT_NUMBER(45, g11) ARIFT_NUMBER(46, g12) ARIFT_NUMBER(47, g13)
+ARIFT_NUMBER(48, g14) ARIFT_NUMBER(49, g15) ARIFT_NUMBER(50, centreX) ARIFT_NUMBER(51, centreY)
+ARIFT_NUMBER(52, cosineCentre) ARIFT_NUMBER(53, cosineScale) ARIFT_NUMBER(54, affineXx) ARIFT_NUMBER(55, affineXy)
+ARIFT_NUMBER(56, affineYx) ARIFT_NUMBER(57, affineYy) ARIFT_NUMBER(58, p1) ARIFT_NUMBER(59, p2)
+ARIFT_NUMBER(60, xi) ARIFT_NUMBER(61, tableScale) ARIFT_NUMBER(62, leastCosine) ARIFT_NUMBER(63, cosineFade)
+ARIFT_NUMBER(64, texelFade) ARIFT_NUMBER(65, imageWidth) ARIFT_NUMBER(66, imageHeight)
+
 const int backgroundNone = 0, backgroundPattern = 1, backgroundGrey = 2, backgroundBayer = 3;
 
 layout(set = 0, binding = 0, std140) uniform Eye { EyeBlock eye; };
@@ -24,20 +42,19 @@ layout(set = 1, binding = 1) uniform sampler2DArray layerTexture;
 layout(location = 0, index = 0) out vec4 light;
 layout(location = 0, index = 1) out vec4 cover;              // for blending over what is there already
 
-// Horner's rule over 16 coefficients in four vectors, written out: a loop over them would cost a software renderer an address per step.
-#define ARIFT_TERM(sum, x, values, count, i) if (count > (i)) sum = sum * x + values[(i) / 4][(i) % 4];
-#define ARIFT_FOUR_TERMS(sum, x, values, count, i) \
-	ARIFT_TERM(sum, x, values, count, i + 3) ARIFT_TERM(sum, x, values, count, i + 2) \
-	ARIFT_TERM(sum, x, values, count, i + 1) ARIFT_TERM(sum, x, values, count, i)
-#define ARIFT_POLYNOMIAL(sum, x, values, count) \
-	ARIFT_FOUR_TERMS(sum, x, values, count, 12) ARIFT_FOUR_TERMS(sum, x, values, count, 8) \
-	ARIFT_FOUR_TERMS(sum, x, values, count, 4) ARIFT_FOUR_TERMS(sum, x, values, count, 0)
+// Horner's rule, written out: arrays of specialisation constants do not exist.
+#define ARIFT_TERM(sum, x, c, count, i) if (count > i) sum = sum * x + c##i;
+#define ARIFT_POLYNOMIAL(sum, x, c, count) \
+	ARIFT_TERM(sum, x, c, count, 15) ARIFT_TERM(sum, x, c, count, 14) ARIFT_TERM(sum, x, c, count, 13) ARIFT_TERM(sum, x, c, count, 12) \
+	ARIFT_TERM(sum, x, c, count, 11) ARIFT_TERM(sum, x, c, count, 10) ARIFT_TERM(sum, x, c, count, 9) ARIFT_TERM(sum, x, c, count, 8) \
+	ARIFT_TERM(sum, x, c, count, 7) ARIFT_TERM(sum, x, c, count, 6) ARIFT_TERM(sum, x, c, count, 5) ARIFT_TERM(sum, x, c, count, 4) \
+	ARIFT_TERM(sum, x, c, count, 3) ARIFT_TERM(sum, x, c, count, 2) ARIFT_TERM(sum, x, c, count, 1) ARIFT_TERM(sum, x, c, count, 0)
 
 float stretch(float r2)
 {
-	float d = 0.0;
-	ARIFT_POLYNOMIAL(d, r2, eye.distortion, distortionCoefficients)
-	return d;
+	float sum = 0.0;
+	ARIFT_POLYNOMIAL(sum, r2, d, distortionCoefficients)
+	return sum;
 }
 
 /// How each colour's tangents compare with green's, and how red's texel follows from green's and blue's.
@@ -51,14 +68,14 @@ struct Chromatic { float red, blue, redFromBlue; };
 float radial(float cosine)
 {
 	if (cameraCoefficients == 0) {
-		const float at = acos(clamp(cosine, -1.0, 1.0)) * eye.tangential.w;
+		const float at = acos(clamp(cosine, -1.0, 1.0)) * tableScale;
 		const float last = float(textureSize(angleTable, 0).x) - 1.0;
 		return textureLod(angleTable, vec2((at * last + 0.5) / (last + 1.0), 0.5), 0.0).r;
 	}
-	const float x = (cosine - eye.centre.z) * eye.centre.w;
-	float g = 0.0;
-	ARIFT_POLYNOMIAL(g, x, eye.g, cameraCoefficients)
-	return g;
+	const float x = (cosine - cosineCentre) * cosineScale;
+	float sum = 0.0;
+	ARIFT_POLYNOMIAL(sum, x, g, cameraCoefficients)
+	return sum;
 }
 
 /// ShaderCamera (optics/camera_model.h): texel of a direction, integers at texel centres.
@@ -66,23 +83,23 @@ vec2 texelOf(vec3 q, out float cosine)
 {
 	const float inverseLength = inversesqrt(dot(q, q));
 	cosine = q.z * inverseLength;
-	vec2 m = q.xy * (inverseLength * radial(max(cosine, eye.edge.x)));
+	vec2 m = q.xy * (inverseLength * radial(max(cosine, leastCosine)));
 	if (tangentialDistortion) {
-		const vec2 t = q.xy / max(q.z + eye.tangential.z / inverseLength, 1e-6);
+		const vec2 t = q.xy / max(q.z + xi / inverseLength, 1e-6);
 		const float r2 = dot(t, t), both = 2.0 * t.x * t.y;
-		m += vec2(eye.tangential.x * both + eye.tangential.y * (r2 + 2.0 * t.x * t.x),
-			eye.tangential.x * (r2 + 2.0 * t.y * t.y) + eye.tangential.y * both);
+		m += vec2(p1 * both + p2 * (r2 + 2.0 * t.x * t.x),
+			p1 * (r2 + 2.0 * t.y * t.y) + p2 * both);
 	}
-	return eye.centre.xy + eye.affine.xy * m.x + eye.affine.zw * m.y;
+	return vec2(centreX, centreY) + vec2(affineXx, affineXy) * m.x + vec2(affineYx, affineYy) * m.y;
 }
 
 /// 1 where the camera sees well, soft towards the edge of its image and of its lens.
 float seen(vec2 texel, float cosine)
 {
-	const vec2 inside = min(texel + 0.5, eye.image.xy - 0.5 - texel);
-	const float toBorder = clamp(min(inside.x, inside.y) * eye.edge.z, 0.0, 1.0);
-	const float fade = toBorder * clamp((cosine - eye.edge.x) * eye.edge.y, 0.0, 1.0);
-	return fade * fade * (3.0 - 2.0 * fade) * eye.edge.w;
+	const vec2 inside = min(texel + 0.5, vec2(imageWidth, imageHeight) - 0.5 - texel);
+	const float toBorder = clamp(min(inside.x, inside.y) * texelFade, 0.0, 1.0);
+	const float fade = toBorder * clamp((cosine - leastCosine) * cosineFade, 0.0, 1.0);
+	return fade * fade * (3.0 - 2.0 * fade) * eye.weight.x;
 }
 
 vec3 rawColour(vec2 red, vec2 green, vec2 blue)
@@ -112,7 +129,7 @@ vec3 behindLayers(vec2 tangents, Chromatic chromatic, float s, float r2)
 {
 	if (background == backgroundNone) return vec3(0.0);
 	// The fill darkens towards the rim, so that the field of view has no hard frame.
-	const vec3 fill = eye.fill.rgb * (1.0 - 0.6 * r2 * eye.circle.z);
+	const vec3 fill = eye.fill.rgb * (1.0 - 0.6 * r2 * fillScale);
 	const mat3 m = ARIFT_AT_LINE(eye.camera, s);
 	const vec3 across = m[0] * tangents.x + m[1] * tangents.y;
 	const vec3 q = m[2] + across;
@@ -157,18 +174,18 @@ void layerLight(vec2 tangents, Chromatic chromatic, float s, out vec3 colour, ou
 
 void main()
 {
-	const vec2 lensVector = (gl_FragCoord.xy - eye.lens.xy) * eye.lens.zw;
+	const vec2 lensVector = (gl_FragCoord.xy - eye.lines.zw) * vec2(lensVectorPerPixel, -lensVectorPerPixel);
 	const float s = (gl_FragCoord.y - eye.lines.x) * eye.lines.y;
 	const float r2 = dot(lensVector, lensVector);
 	Chromatic chromatic = Chromatic(1.0, 1.0, 0.0);
 	vec2 tangents = lensVector;
 	float shown = 1.0;
 	if (throughLens) {
-		shown = clamp(1.0 - (r2 - eye.circle.x) * eye.circle.y, 0.0, 1.0);
-		const float r2Shown = min(r2, eye.circle.x);
+		shown = clamp(1.0 - (r2 - largestR2) * rimScale, 0.0, 1.0);
+		const float r2Shown = min(r2, largestR2);
 		tangents *= stretch(r2Shown);
-		chromatic = Chromatic(eye.chromatic.z + eye.chromatic.w * r2Shown, eye.chromatic.x + eye.chromatic.y * r2Shown,
-			eye.redFromBlue.x + eye.redFromBlue.y * r2Shown);
+		chromatic = Chromatic(red0 + red1 * r2Shown, blue0 + blue1 * r2Shown,
+			redFromBlue0 + redFromBlue1 * r2Shown);
 	}
 	vec3 colour = behindLayers(tangents, chromatic, s, r2), alpha = vec3(0.0);
 	if (hasLayer) {

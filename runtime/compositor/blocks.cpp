@@ -12,8 +12,6 @@ namespace
 constexpr glm::vec3 calm{0.018f, 0.021f, 0.026f};
 constexpr glm::vec3 amber{0.16f, 0.07f, 0.008f};
 constexpr float staleWeight = 0.6f;
-/// The camera image fades over this angle towards its edge.
-constexpr double fadeAngle = 4 * M_PI / 180;
 
 shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band)
 {
@@ -23,32 +21,6 @@ shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band)
 		block.change[column] = glm::vec4(glm::dvec4(m[band + 1][column] - m[band][column], 0));
 	}
 	return block;
-}
-
-template <typename Values> void copyCoefficients(const Values &values, glm::vec4 (&block)[4])
-{
-	static_assert(std::tuple_size_v<Values> == 16);
-	for (size_t i = 0; i < 16; ++i) block[i / 4][int(i % 4)] = values[i];
-}
-
-void describeLens(shaders::EyeBlock &block, const EyeDraw &draw, uint32_t band)
-{
-	const ViewGeometry::Eye &view = draw.geometry.eyes[draw.eye];
-	const LensModel &lens = draw.optics.lens;
-	block.lens = {view.axis.x, view.axis.y, view.perPixel.x, view.perPixel.y};
-	const double begin = draw.grid.bandBegin(band), end = draw.grid.bandBegin(band + 1);
-	block.lines = {begin, 1 / (end - begin), 0, 0};
-	if (!draw.geometry.throughLens) {
-		const auto fov = lens.fov(Eye(draw.eye), draw.optics.interpupillaryDistance);
-		block.circle = {0, 0, 1 / (fov.up * fov.up + fov.left * fov.right), 0};
-		return;
-	}
-	const double edge = std::sqrt(lens.maxR2()), rim = edge + rimPixels * view.perPixel.x;
-	block.circle = {lens.maxR2(), 1 / (rim * rim - lens.maxR2()), 1 / lens.maxR2(), 0};
-	copyCoefficients(draw.optics.shaderLens.d, block.distortion);
-	const auto red = lens.chromatic(Channel::red), blue = lens.chromatic(Channel::blue);
-	block.chromatic = {blue[0], blue[1], red[0], red[1]};
-	if (!draw.optics.redItself) block.redFromBlue = {(red[0] - 1) / (blue[0] - 1), red[1] / (blue[0] - 1), 0, 0};
 }
 
 /// Where red is in the two-by-two cell: column, row.
@@ -80,17 +52,8 @@ void describePlanes(shaders::EyeBlock &block, const CameraFrame &frame)
 	block.planeOffset[1] = {secondGreen.x, secondGreen.y, b.x, b.y};
 }
 
-void describeCamera(shaders::EyeBlock &block, const PanelCamera &camera, const CameraView &view, float weight)
+void describeCamera(shaders::EyeBlock &block, const CameraView &view)
 {
-	const ShaderCamera &form = camera.form;
-	copyCoefficients(form.g, block.g);
-	block.centre = {form.centre.x, form.centre.y, form.cosineCentre, form.cosineScale};
-	block.affine = {form.affine[0][0], form.affine[0][1], form.affine[1][0], form.affine[1][1]};
-	block.tangential = {form.tangential[0], form.tangential[1], form.xi, float(1 / camera.maxAngle)};
-	const double fadeFrom = std::cos(std::max(camera.maxAngle - fadeAngle, 0.0));
-	block.edge = {form.cosineLimit, 1 / std::max(fadeFrom - double(form.cosineLimit), 1e-6), 1 / (camera.texelsPerRadian * fadeAngle),
-				  weight};
-	block.image = {float(camera.width), float(camera.height), 0, 0};
 	const float dark = float(view.blackLevel), range = 1 / std::max(1 - dark, 1e-3f);
 	block.colour = {view.whiteBalance[0] * range, view.whiteBalance[1] * range, view.whiteBalance[2] * range, dark};
 	describePlanes(block, view.frame);
@@ -130,12 +93,16 @@ const CameraView *cameraOf(const PanelInputs &inputs, const PanelOptics &optics,
 shaders::EyeBlock eyeBlock(const EyeDraw &draw, uint32_t band, const MatrixByBand &camera)
 {
 	shaders::EyeBlock block{};
-	describeLens(block, draw, band);
+	const glm::dvec2 axis = draw.geometry.eyes[draw.eye].axis;
+	const double begin = draw.grid.bandBegin(band), end = draw.grid.bandBegin(band + 1);
+	block.lines = {begin, 1 / (end - begin), axis.x, axis.y};
 	block.camera = byLine(camera, band);
 	const CameraView *view = cameraOf(draw.inputs, draw.optics, draw.eye);
 	const bool stale = view && draw.inputs.displayTime - view->frame.midExposure > staleAge;
-	const float weight = view ? std::clamp(view->weight, 0.0f, 1.0f) * (stale ? staleWeight : 1.0f) : 0.0f;
-	if (view) describeCamera(block, draw.optics.cameras[view->lens], *view, weight);
+	if (view) {
+		describeCamera(block, *view);
+		block.weight.x = std::clamp(view->weight, 0.0f, 1.0f) * (stale ? staleWeight : 1.0f);
+	}
 	const float hides = draw.inputs.blendMode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE ? 0.0f : 1.0f;
 	block.fill = glm::vec4(stale ? amber : calm, hides);
 	return block;

@@ -20,7 +20,10 @@ PipelineKey backdropOf(const CameraView *camera, bool throughLens)
 {
 	if (!camera) return {.background = Background::pattern, .throughLens = throughLens};
 	const bool bayer = isBayer(camera->frame.format);
-	return {.background = bayer ? Background::bayer : Background::grey, .encoded = !camera->linear, .throughLens = throughLens};
+	return {.background = bayer ? Background::bayer : Background::grey,
+			.camera = camera->lens,
+			.encoded = !camera->linear,
+			.throughLens = throughLens};
 }
 
 class EyeDrawing

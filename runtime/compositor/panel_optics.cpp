@@ -58,7 +58,7 @@ PanelOptics::PanelOptics(const Rig &rig)
 {
 	const auto blue = lens.chromatic(Channel::blue);
 	redItself = blue[1] != 0 || std::abs(blue[0] - 1) < 1e-6;
-	for (const RigCamera &camera : rig.cameras) cameras.push_back(describe(camera.model));
+	for (size_t i = 0; i < std::min<size_t>(rig.cameras.size(), 2); ++i) cameras.push_back(describe(rig.cameras[i].model));
 	bool table = false;
 	for (const PanelCamera &camera : cameras) {
 		table |= camera.form.coefficients == 0;
@@ -71,6 +71,60 @@ PanelOptics::PanelOptics(const Rig &rig)
 		useTables(cameras, tableSize);
 	}
 	if (cameras.empty()) cameraCoefficients = 1;
+}
+
+namespace
+{
+
+/// The camera image fades over this angle towards its edge.
+constexpr double fadeAngle = 4 * M_PI / 180;
+
+void describeLens(PanelNumbers &numbers, const PanelOptics &optics, const ViewGeometry &geometry)
+{
+	const LensModel &lens = optics.lens;
+	const double perPixel = geometry.eyes[0].perPixel.x;
+	numbers.lensVectorPerPixel = float(perPixel);
+	if (!geometry.throughLens) {
+		const auto fov = lens.fov(Eye::left, optics.interpupillaryDistance);
+		numbers.fillScale = float(1 / (fov.up * fov.up + fov.left * fov.right));
+		return;
+	}
+	const double rim = std::sqrt(lens.maxR2()) + rimPixels * perPixel;
+	numbers.distortion = optics.shaderLens.d;
+	numbers.largestR2 = float(lens.maxR2());
+	numbers.rimScale = float(1 / (rim * rim - lens.maxR2()));
+	numbers.fillScale = float(1 / lens.maxR2());
+	const auto red = lens.chromatic(Channel::red), blue = lens.chromatic(Channel::blue);
+	numbers.red = {float(red[0]), float(red[1])};
+	numbers.blue = {float(blue[0]), float(blue[1])};
+	if (!optics.redItself) numbers.redFromBlue = {float((red[0] - 1) / (blue[0] - 1)), float(red[1] / (blue[0] - 1))};
+}
+
+void describeCamera(PanelNumbers &numbers, const PanelCamera &camera)
+{
+	const ShaderCamera &form = camera.form;
+	numbers.gain = form.g;
+	numbers.centre = {form.centre.x, form.centre.y};
+	numbers.cosineCentre = form.cosineCentre;
+	numbers.cosineScale = form.cosineScale;
+	numbers.affine = {form.affine[0][0], form.affine[0][1], form.affine[1][0], form.affine[1][1]};
+	numbers.tangential = {form.tangential[0], form.tangential[1], form.xi};
+	numbers.tableScale = float(1 / camera.maxAngle);
+	const double fadeFrom = std::cos(std::max(camera.maxAngle - fadeAngle, 0.0));
+	numbers.leastCosine = form.cosineLimit;
+	numbers.cosineFade = float(1 / std::max(fadeFrom - double(form.cosineLimit), 1e-6));
+	numbers.texelFade = float(1 / (camera.texelsPerRadian * fadeAngle));
+	numbers.image = {float(camera.width), float(camera.height)};
+}
+
+} // namespace
+
+PanelNumbers numbersFor(const PanelOptics &optics, const ViewGeometry &geometry, size_t camera)
+{
+	PanelNumbers numbers;
+	describeLens(numbers, optics, geometry);
+	if (camera < optics.cameras.size()) describeCamera(numbers, optics.cameras[camera]);
+	return numbers;
 }
 
 ViewGeometry panelGeometry(const PanelOptics &optics)

@@ -18,9 +18,9 @@ struct PanelOptics {
 
 	LensModel lens;
 	ShaderLens shaderLens;
-	bool redItself = false; ///< red does not follow from green and blue
-	std::vector<PanelCamera> cameras;
-	uint32_t cameraCoefficients = 0; ///< of every camera's polynomial; 0: all of them use tables of equal size
+	bool redItself = false;           ///< red does not follow from green and blue
+	std::vector<PanelCamera> cameras; ///< at most two
+	uint32_t cameraCoefficients = 0;  ///< of every camera's polynomial; 0: all of them use tables of equal size
 	uint32_t tableSize = 1;
 	bool tangential = false;
 	double interpupillaryDistance;
@@ -45,5 +45,26 @@ ViewGeometry eyesGeometry(const PanelOptics &optics);
 TileGrid makeGrid(const PanelOptics &optics, const ViewGeometry &geometry, size_t eye);
 
 constexpr double rimPixels = 3;
+
+/// The shader's numbers (panel.frag, from constant id 8 on, in this order) that follow from the Rig alone.
+struct PanelNumbers {
+	std::array<float, 16> distortion{}; ///< D(r^2), lowest order first
+	float lensVectorPerPixel = 0;       ///< or tangents, before the lens correction
+	float largestR2 = 0, rimScale = 0;  ///< the circle, and 1 / the width of its soft rim in r^2
+	float fillScale = 0;                ///< r^2 times this is 1 at the rim, where the fill is darkest
+	std::array<float, 2> blue{}, red{}; ///< tangents = green's (first + second r^2)
+	std::array<float, 2> redFromBlue{}; ///< red's texel = green's + (blue's - green's) (first + second r^2)
+	// ShaderCamera:
+	std::array<float, 16> gain{};
+	std::array<float, 2> centre{};
+	float cosineCentre = 0, cosineScale = 0;
+	std::array<float, 4> affine{};
+	std::array<float, 3> tangential{};                    ///< p1, p2, xi
+	float tableScale = 0;                                 ///< 1 / angle at the end of the table
+	float leastCosine = 0, cosineFade = 0, texelFade = 0; ///< of the largest angle; 1 / fading width in cosines and in texels
+	std::array<float, 2> image{};                         ///< texels
+};
+/// `camera`: index into PanelOptics::cameras; beyond its end: no camera.
+PanelNumbers numbersFor(const PanelOptics &optics, const ViewGeometry &geometry, size_t camera);
 
 } // namespace arift

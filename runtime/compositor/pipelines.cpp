@@ -50,16 +50,18 @@ vk::raii::PipelineLayout makeLayout(const gpu::Device::Handles &gpu, vk::Descrip
 	return {gpu.device, {{}, sets, extent}};
 }
 
-/// In the order of the shader's constant ids.
+/// In the order of the shader's constant ids: words.
 struct Constants {
 	int32_t distortionCoefficients, cameraCoefficients;
 	VkBool32 tangential;
 	int32_t background;
 	VkBool32 encoded, layer, throughLens, redItself;
+	PanelNumbers numbers;
 };
 
 Constants constantsFor(const PanelOptics &optics, const PipelineKey &key)
 {
+	const ViewGeometry geometry = key.throughLens ? panelGeometry(optics) : eyesGeometry(optics);
 	return {int32_t(optics.shaderLens.coefficients),
 			int32_t(optics.cameraCoefficients),
 			optics.tangential,
@@ -67,7 +69,8 @@ Constants constantsFor(const PanelOptics &optics, const PipelineKey &key)
 			key.encoded,
 			key.layer,
 			key.throughLens,
-			optics.redItself};
+			optics.redItself,
+			numbersFor(optics, geometry, key.camera)};
 }
 
 vk::PipelineColorBlendAttachmentState blendState(Blend blend)
@@ -116,18 +119,31 @@ struct Factory {
 	}
 };
 
+/// What can lie behind layers, for one kind of view.
+std::vector<PipelineKey> backdrops(const PanelOptics &optics, bool throughLens)
+{
+	std::vector<PipelineKey> keys{{.background = Background::pattern, .throughLens = throughLens}};
+	for (uint32_t camera = 0; camera < optics.cameras.size(); ++camera)
+		for (const Background background : {Background::grey, Background::bayer})
+			for (const bool encoded : {false, true})
+				keys.push_back({.background = background, .camera = camera, .encoded = encoded, .throughLens = throughLens});
+	return keys;
+}
+
 /// Every combination TileDraw and the cameras' formats can ask for.
-std::vector<PipelineKey> everyKey()
+std::vector<PipelineKey> everyKey(const PanelOptics &optics)
 {
 	std::vector<PipelineKey> keys;
 	for (const bool throughLens : {true, false}) {
-		for (const Background background : {Background::none, Background::pattern, Background::grey, Background::bayer})
-			for (const bool encoded : {false, true}) {
-				if (encoded && background != Background::grey && background != Background::bayer) continue;
-				for (const bool layer : {false, true}) keys.push_back({Blend::replace, background, encoded, layer, throughLens});
-				if (background != Background::none) keys.push_back({Blend::add, background, encoded, false, throughLens});
-			}
-		keys.push_back({Blend::over, Background::none, false, true, throughLens});
+		for (PipelineKey key : backdrops(optics, throughLens)) {
+			keys.push_back(key);
+			key.layer = true;
+			keys.push_back(key);
+			key.layer = false;
+			key.blend = Blend::add;
+			keys.push_back(key);
+		}
+		for (const Blend blend : {Blend::replace, Blend::over}) keys.push_back({.blend = blend, .layer = true, .throughLens = throughLens});
 	}
 	return keys;
 }
@@ -142,7 +158,7 @@ Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const P
 	  layout_(makeLayout(gpu, *eyeSetLayout_, *layerSetLayout_))
 {
 	const Factory factory{gpu, optics, *layout_, *renderPass_};
-	for (const PipelineKey &key : everyKey()) pipelines_.emplace(key, factory.make(key));
+	for (const PipelineKey &key : everyKey(optics)) pipelines_.emplace(key, factory.make(key));
 }
 
 } // namespace arift

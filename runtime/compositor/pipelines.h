@@ -14,6 +14,7 @@ enum class Background : uint32_t { none, pattern, grey, bayer };
 struct PipelineKey {
 	Blend blend = Blend::replace;
 	Background background = Background::none;
+	uint32_t camera = 0;  ///< whose lens; 0 without a camera
 	bool encoded = false; ///< the camera's values are sRGB encoded
 	bool layer = false;
 	bool throughLens = true;
