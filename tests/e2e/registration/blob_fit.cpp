@@ -79,37 +79,32 @@ double area(const reference::Lens &lens, int eye, int channel, const Vector2d &p
 	return std::abs(j.determinant());
 }
 
-bool isOnBlack(const Light &light, const Box &box, int channel, double peak)
-{
-	const double most = 0.08 * peak;
-	for (int x = box.left; x < box.right; ++x)
-		if (light.at(x, box.top, channel) > most || light.at(x, box.bottom - 1, channel) > most) return false;
-	for (int y = box.top; y < box.bottom; ++y)
-		if (light.at(box.left, y, channel) > most || light.at(box.right - 1, y, channel) > most) return false;
-	return true;
-}
+/// The fit looks at an ellipse this much larger than the disc's box; its rim must be dark.
+constexpr double reach = 1.5, rim = 1.3;
 
-std::optional<Spot> fit(const Light &light, const reference::Lens &lens, int eye, int channel, Box box)
+std::optional<Spot> fit(const Light &light, const reference::Lens &lens, int eye, int channel, const Box &box)
 {
 	const int wide = box.right - box.left, high = box.bottom - box.top;
 	if (wide < 5 || high < 5 || wide > 120 || high > 120 || wide > 2 * high || high > 2 * wide) return std::nullopt;
-	const int margin = std::max(2, std::max(wide, high) / 6);
-	box = {box.left - margin, box.top - margin, box.right + margin, box.bottom + margin};
+	const Vector2d centre((box.left + box.right) / 2.0, (box.top + box.bottom) / 2.0), half(wide / 2.0, high / 2.0);
+	const Eigen::Vector2i low = (centre - reach * half).array().floor().matrix().cast<int>();
+	const Eigen::Vector2i end = (centre + reach * half).array().ceil().matrix().cast<int>();
 	const int start = eye * light.halfWidth();
-	if (box.left < start || box.top < 0 || box.right > start + light.halfWidth() || box.bottom > light.height()) return std::nullopt;
+	if (low.x() < start || low.y() < 0 || end.x() > start + light.halfWidth() || end.y() > light.height()) return std::nullopt;
 	Spot spot;
-	double total = 0;
-	for (int y = box.top; y < box.bottom; ++y)
-		for (int x = box.left; x < box.right; ++x) spot.peak = std::max(spot.peak, light.at(x, y, channel));
-	if (!isOnBlack(light, box, channel, spot.peak)) return std::nullopt;
-	for (int y = box.top; y < box.bottom; ++y)
-		for (int x = box.left; x < box.right; ++x) {
+	double total = 0, brightestRim = 0;
+	for (int y = low.y(); y < end.y(); ++y)
+		for (int x = low.x(); x < end.x(); ++x) {
 			const Vector2d pixel(x + 0.5, y + 0.5);
-			const double value = light.at(x, y, channel), weight = value * area(lens, eye, channel, pixel);
+			const double out = (pixel - centre).cwiseQuotient(half).norm(), value = light.at(x, y, channel);
+			if (out > reach) continue;
+			spot.peak = std::max(spot.peak, value);
+			if (out > rim) brightestRim = std::max(brightestRim, value);
+			const double weight = value * area(lens, eye, channel, pixel);
 			spot.tangents += weight * lens.tangents(eye, channel, pixel);
-			spot.pixels += value > spot.peak / 2;
 			total += weight;
 		}
+	if (brightestRim > 0.08 * spot.peak) return std::nullopt;
 	spot.tangents /= total;
 	return spot;
 }

@@ -11,7 +11,6 @@ namespace arift::e2e
 struct Spot {
 	Eigen::Vector2d tangents = Eigen::Vector2d::Zero();
 	double peak = 0; ///< linear light, 0 to 1
-	int pixels = 0;  ///< above half of the peak
 };
 
 /// Discs of `channel` (0 red, 2 blue) in the half of `eye` that are whole, alone on black ground and without green.
