@@ -82,7 +82,8 @@ public:
 	void pressKey() const { EXPECT_EQ(::write(keys_, "\n", 1), 1); }
 	/// Everything it and the layers printed.
 	std::string output() const { return process_->output() + contentsOf(coreValidation_); }
-	bool hasCoreValidation() const { return contentsOf(coreValidation_).find("VUID-CoreValidation-Initialize") != std::string::npos; }
+	/// What the layer says of itself when an instance is created.
+	bool hasCoreValidation() const { return process_->output().find("Core Validation output type:") != std::string::npos; }
 
 private:
 	std::string name_;

@@ -155,6 +155,8 @@ TEST_F(Running, ShowsFramesWithoutAnyApplication)
 
 TEST_F(Running, ThePanelShowsTheRoom)
 {
+	// Behind the first second the camera images have come and faded in.
+	ASSERT_TRUE(eventually(service(), [](const auto &status) { return status["frames"]["shown"].template get<int>() >= 60; }));
 	const PanelPicture panel = service().screenshot();
 	ASSERT_EQ(panel.width, 1280u);
 	ASSERT_EQ(panel.height, 800u);
