@@ -1,10 +1,7 @@
 // One line on standard error per message: time, level, room, text. Small enough to live in other people's processes:
-// no static object with a destructor, no library beyond header-only fmt.
+// no static object with a destructor, no shared library beyond the C++ runtime's own.
 #pragma once
-#ifndef FMT_HEADER_ONLY
-#define FMT_HEADER_ONLY
-#endif
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <string_view>
 
 namespace arift::log

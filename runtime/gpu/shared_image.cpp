@@ -1,6 +1,6 @@
 #include "runtime/gpu/device.h"
 #include "runtime/gpu/handles.h"
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <stdexcept>
 
 namespace arift::gpu

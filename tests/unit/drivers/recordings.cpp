@@ -1,7 +1,7 @@
 #include "tests/unit/drivers/recordings.h"
 #include <cmath>
 #include <cstring>
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <fstream>
 #include <png.h>
 
