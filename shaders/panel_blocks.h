@@ -1,5 +1,5 @@
-// The numbers of one draw that change from image to image, shared by C++ and GLSL. Only vec4 and arrays of vec4: std140 and C++ agree on
-// their layout.
+// The numbers of one draw that change from image to image, shared by C++ and GLSL. Only vec4 and arrays of vec4: every layout rule of GLSL
+// and C++ agree on them.
 #ifndef ARIFT_PANEL_BLOCKS_H
 #define ARIFT_PANEL_BLOCKS_H
 
@@ -10,7 +10,7 @@ namespace arift::shaders
 using glm::vec4;
 #endif
 
-/// A 3x3 matrix that changes linearly from the first line of a band to the line after its last: columns in xyz.
+/// A 3x3 matrix that changes linearly from the first line of a band to the line after its last: columns in xyz. w is free.
 struct MatrixByLine {
 	vec4 first[3];
 	vec4 change[3];
@@ -28,12 +28,12 @@ struct EyeBlock {
 	vec4 weight;         ///< x: of the camera's image against the fill
 };
 
-/// One layer as one eye sees it, one band of lines.
+/// One layer as one eye sees it, one band of lines. Push constants: just the 128 bytes that every device has.
 struct LayerBlock {
-	MatrixByLine uv; ///< (tangents, 1) -> (u w, v w, w) with u, v in 0..1 over the sub-image and w > 0 in front
+	MatrixByLine uv; ///< (tangents, 1) -> (u w, v w, w) with u, v in 0..1 over the sub-image and w > 0 in front; in the free places of
+					 ///< `first`: array layer; 1 where alpha counts; 1 where colour is still to be multiplied by alpha
 	vec4 rect;       ///< xy: texture coordinate of the sub-image's corner; zw: its size
 	vec4 inside;     ///< smallest and largest texture coordinates: the centres of the sub-image's outermost texels
-	vec4 mode;       ///< x: array layer; y: 1 where alpha counts; z: 1 where colour is still to be multiplied by alpha
 };
 
 #ifdef __cplusplus

@@ -144,7 +144,9 @@ shaders::LayerBlock layerBlock(const PanelLayer &layer, size_t eye, uint32_t ban
 	block.uv = byLine(uv, band);
 	block.rect = {corner.x / size.x, corner.y / size.y, extent.x / size.x, extent.y / size.y};
 	block.inside = {least.x, least.y, most.x, most.y};
-	block.mode = {float(texture.arrayIndex), isOpaque(layer) ? 0 : 1, multiply ? 1 : 0, 0};
+	block.uv.first[0].w = float(texture.arrayIndex);
+	block.uv.first[1].w = isOpaque(layer) ? 0 : 1;
+	block.uv.first[2].w = multiply ? 1 : 0;
 	return block;
 }
 

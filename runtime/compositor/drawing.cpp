@@ -1,4 +1,5 @@
 #include "runtime/compositor/drawing.h"
+#include "runtime/compositor/camera_cover.h"
 
 namespace arift
 {
@@ -38,17 +39,19 @@ public:
 	{
 		const auto firstEyeBlock = uint32_t(drawing_.eyeBlocks.size());
 		const CameraView *camera = cameraOf(draw_.inputs, draw_.optics, draw_.eye);
-		addEyeBlocks(camera);
+		const MatrixByBand matrices = addEyeBlocks(camera);
+		std::vector<bool> seen;
+		if (camera) seen = seenTiles(draw_.grid, matrices, draw_.optics.cameras[camera->lens]);
 		const size_t count = std::min(draw_.inputs.layers.size(), maxDrawnLayers);
 		planned_.resize(count);
 		blocks_.resize(count);
 		for (size_t i = 0; i < count; ++i) addLayer(i);
 		const PipelineKey backdrop = backdropOf(camera, draw_.geometry.throughLens);
-		for (const TileDraw &tiles : planDraws(draw_.grid, draw_.inputs.blendMode, planned_)) addItem(tiles, backdrop, firstEyeBlock);
+		for (const TileDraw &tiles : planDraws(draw_.grid, draw_.inputs.blendMode, planned_, seen)) addItem(tiles, backdrop, firstEyeBlock);
 	}
 
 private:
-	void addEyeBlocks(const CameraView *camera)
+	MatrixByBand addEyeBlocks(const CameraView *camera)
 	{
 		MatrixByBand matrices;
 		for (uint32_t band = 0; band <= bandCount; ++band) {
@@ -56,6 +59,7 @@ private:
 			matrices[band] = camera ? cameraMatrix(eye, camera->cameraInOrigin) : directionMatrix(eye);
 		}
 		for (uint32_t band = 0; band < bandCount; ++band) drawing_.eyeBlocks.push_back(eyeBlock(draw_, band, matrices));
+		return matrices;
 	}
 
 	void addLayer(size_t index)
@@ -74,10 +78,11 @@ private:
 
 	void addItem(const TileDraw &tiles, const PipelineKey &backdrop, uint32_t firstEyeBlock)
 	{
-		DrawItem item{.pipeline = tiles.backdrop ? backdrop : PipelineKey{.throughLens = draw_.geometry.throughLens}};
+		DrawItem item{.pipeline = {.throughLens = draw_.geometry.throughLens}};
+		if (tiles.behind == Behind::camera) item.pipeline = backdrop;
+		if (tiles.behind == Behind::unseen) item.pipeline.background = Background::unseen;
 		item.pipeline.blend = tiles.blend;
 		item.pipeline.layer = tiles.layer >= 0;
-		item.eye = uint32_t(draw_.eye);
 		item.eyeBlock = firstEyeBlock + tiles.band;
 		if (tiles.layer >= 0) {
 			item.layerBlock = blocks_[size_t(tiles.layer)] + tiles.band;

@@ -11,7 +11,6 @@ constexpr size_t maxDrawnLayers = 64;
 
 struct DrawItem {
 	PipelineKey pipeline;
-	uint32_t eye = 0;
 	uint32_t eyeBlock = 0;   ///< index into Drawing::eyeBlocks
 	uint32_t layerBlock = 0; ///< index into Drawing::layerBlocks, where the pipeline has a layer
 	uint64_t image = 0;      ///< the layer's

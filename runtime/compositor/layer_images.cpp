@@ -1,5 +1,4 @@
 #include "runtime/compositor/layer_images.h"
-#include "shaders/panel_blocks.h"
 
 namespace arift
 {
@@ -17,9 +16,8 @@ constexpr vk::ImageSubresourceRange whole{vk::ImageAspectFlagBits::eColor, 0, VK
 
 vk::raii::DescriptorPool poolForOneSet(const gpu::Device::Handles &gpu)
 {
-	const std::array sizes{vk::DescriptorPoolSize{vk::DescriptorType::eUniformBufferDynamic, 1},
-						   vk::DescriptorPoolSize{vk::DescriptorType::eCombinedImageSampler, 1}};
-	return {gpu.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes}};
+	const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, 1};
+	return {gpu.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size}};
 }
 
 vk::raii::DescriptorSet allocate(const gpu::Device::Handles &gpu, const vk::raii::DescriptorPool &pool, vk::DescriptorSetLayout layout)
@@ -29,8 +27,8 @@ vk::raii::DescriptorSet allocate(const gpu::Device::Handles &gpu, const vk::raii
 
 } // namespace
 
-LayerImages::LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layout, vk::Sampler sampler, vk::Buffer blocks)
-	: gpu_(gpu), layout_(layout), sampler_(sampler), blocks_(blocks)
+LayerImages::LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layout, vk::Sampler sampler)
+	: gpu_(gpu), layout_(layout), sampler_(sampler)
 {
 }
 
@@ -41,11 +39,8 @@ void LayerImages::add(uint64_t key, VkImage image, const gpu::ImageSpec &spec)
 	vk::raii::ImageView view(gpu_.device, {{}, image, vk::ImageViewType::e2DArray, vk::Format(format), {}, sampled});
 	vk::raii::DescriptorPool pool = poolForOneSet(gpu_);
 	vk::raii::DescriptorSet set = allocate(gpu_, pool, layout_);
-	const vk::DescriptorBufferInfo buffer{blocks_, 0, sizeof(shaders::LayerBlock)};
 	const vk::DescriptorImageInfo texture{sampler_, *view, Layout::eShaderReadOnlyOptimal};
-	gpu_.device.updateDescriptorSets({vk::WriteDescriptorSet{*set, 0, 0, vk::DescriptorType::eUniformBufferDynamic, {}, buffer},
-									  vk::WriteDescriptorSet{*set, 1, 0, vk::DescriptorType::eCombinedImageSampler, texture}},
-									 {});
+	gpu_.device.updateDescriptorSets(vk::WriteDescriptorSet{*set, 0, 0, vk::DescriptorType::eCombinedImageSampler, texture}, {});
 	images_.insert_or_assign(key, Entry{image, spec, std::move(view), std::move(pool), std::move(set)});
 }
 

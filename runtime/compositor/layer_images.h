@@ -9,8 +9,8 @@ namespace arift
 class LayerImages
 {
 public:
-	/// Every image gets a descriptor set of `layout`: the layer blocks' buffer and the image.
-	LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layout, vk::Sampler sampler, vk::Buffer blocks);
+	/// Every image gets a descriptor set of `layout`.
+	LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layout, vk::Sampler sampler);
 
 	void add(uint64_t key, VkImage image, const gpu::ImageSpec &spec);
 	void remove(uint64_t key) { images_.erase(key); }
@@ -33,7 +33,6 @@ private:
 	gpu::Device::Handles &gpu_;
 	vk::DescriptorSetLayout layout_;
 	vk::Sampler sampler_;
-	vk::Buffer blocks_;
 	std::unordered_map<uint64_t, Entry> images_;
 };
 

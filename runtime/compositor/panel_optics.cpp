@@ -25,33 +25,33 @@ PanelCamera describe(const CameraModel &model)
 	return {fitForShader(model), model.width(), model.height(), model.maxAngle(), angle > 0 ? step / angle : double(model.width())};
 }
 
-float gainAt(const PanelCamera &camera, double angle)
-{
-	const ShaderCamera &form = camera.form;
-	if (form.coefficients == 0) {
-		const double at = angle / camera.maxAngle * double(form.table.size() - 1);
-		const size_t index = std::min(size_t(at), form.table.size() - 2);
-		return float(glm::mix(double(form.table[index]), double(form.table[index + 1]), at - double(index)));
-	}
-	const double x = (std::cos(angle) - double(form.cosineCentre)) * double(form.cosineScale);
-	double g = 0;
-	for (uint32_t i = form.coefficients; i-- > 0;) g = g * x + double(form.g[i]);
-	return float(g);
-}
-
 /// One camera without a polynomial makes tables of all: there is one shader for both.
 void useTables(std::vector<PanelCamera> &cameras, uint32_t size)
 {
 	for (PanelCamera &camera : cameras) {
 		if (camera.form.coefficients == 0 && camera.form.table.size() == size) continue;
 		std::vector<float> table(size);
-		for (uint32_t i = 0; i < size; ++i) table[i] = gainAt(camera, camera.maxAngle * i / (size - 1));
+		for (uint32_t i = 0; i < size; ++i) table[i] = float(gainAt(camera, camera.maxAngle * i / (size - 1)));
 		camera.form.table = std::move(table);
 		camera.form.coefficients = 0;
 	}
 }
 
 } // namespace
+
+double gainAt(const PanelCamera &camera, double angle)
+{
+	const ShaderCamera &form = camera.form;
+	if (form.coefficients == 0) {
+		const double at = angle / camera.maxAngle * double(form.table.size() - 1);
+		const size_t index = std::min(size_t(at), form.table.size() - 2);
+		return glm::mix(double(form.table[index]), double(form.table[index + 1]), at - double(index));
+	}
+	const double x = (std::cos(angle) - double(form.cosineCentre)) * double(form.cosineScale);
+	double g = 0;
+	for (uint32_t i = form.coefficients; i-- > 0;) g = g * x + double(form.g[i]);
+	return g;
+}
 
 PanelOptics::PanelOptics(const Rig &rig)
 	: lens(rig.lens), shaderLens(fitForShader(rig.lens)), interpupillaryDistance(rig.interpupillaryDistance)
@@ -83,7 +83,6 @@ void describeLens(PanelNumbers &numbers, const PanelOptics &optics, const ViewGe
 {
 	const LensModel &lens = optics.lens;
 	const double perPixel = geometry.eyes[0].perPixel.x;
-	numbers.lensVectorPerPixel = float(perPixel);
 	if (!geometry.throughLens) {
 		const auto fov = lens.fov(Eye::left, optics.interpupillaryDistance);
 		numbers.fillScale = float(1 / (fov.up * fov.up + fov.left * fov.right));

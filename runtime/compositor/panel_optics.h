@@ -13,6 +13,9 @@ struct PanelCamera {
 	double texelsPerRadian = 1; ///< at the edge of the image
 };
 
+/// ShaderCamera's G at an angle off the axis (0 to maxAngle), radians.
+double gainAt(const PanelCamera &camera, double angle);
+
 struct PanelOptics {
 	explicit PanelOptics(const Rig &rig);
 
@@ -49,7 +52,6 @@ constexpr double rimPixels = 3;
 /// The shader's numbers (panel.frag, from constant id 8 on, in this order) that follow from the Rig alone.
 struct PanelNumbers {
 	std::array<float, 16> distortion{}; ///< D(r^2), lowest order first
-	float lensVectorPerPixel = 0;       ///< or tangents, before the lens correction
 	float largestR2 = 0, rimScale = 0;  ///< the circle, and 1 / the width of its soft rim in r^2
 	float fillScale = 0;                ///< r^2 times this is 1 at the rim, where the fill is darkest
 	std::array<float, 2> blue{}, red{}; ///< tangents = green's (first + second r^2)

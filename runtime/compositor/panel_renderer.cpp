@@ -78,16 +78,20 @@ vk::raii::Sampler makeSampler(const gpu::Device::Handles &gpu)
 			 Address::eClampToEdge}};
 }
 
+/// A set for every eye and band, as makeDrawing() numbers its eye blocks.
+constexpr uint32_t eyeSetCount = 2 * bandCount;
+
 vk::raii::DescriptorPool makePool(const gpu::Device::Handles &gpu)
 {
-	const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBufferDynamic, 3}, vk::DescriptorPoolSize{Type::eCombinedImageSampler, 7}};
-	return {gpu.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 3, sizes}};
+	const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, eyeSetCount},
+						   vk::DescriptorPoolSize{Type::eCombinedImageSampler, 3 * eyeSetCount}};
+	return {gpu.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, eyeSetCount, sizes}};
 }
 
 std::vector<vk::raii::DescriptorSet> makeSets(const gpu::Device::Handles &gpu, const vk::raii::DescriptorPool &pool,
 											  const Pipelines &pipelines)
 {
-	const std::array layouts{pipelines.eyeSetLayout(), pipelines.eyeSetLayout()};
+	const std::vector layouts(eyeSetCount, pipelines.eyeSetLayout());
 	vk::raii::DescriptorSets sets(gpu.device, {*pool, layouts});
 	return {std::make_move_iterator(sets.begin()), std::make_move_iterator(sets.end())};
 }
@@ -121,7 +125,6 @@ struct PanelRenderer::Implementation {
 	Canvas panel, eyes;
 	vk::raii::Sampler sampler;
 	BlockBuffer<shaders::EyeBlock> eyeBlocks;
-	BlockBuffer<shaders::LayerBlock> layerBlocks;
 	std::optional<gpu::Buffer> vertices;
 	CameraImages cameraImages;
 	std::array<Texture, 2> angleTables;
@@ -146,12 +149,11 @@ PanelRenderer::Implementation::Implementation(gpu::Device &device, const Rig &ri
 	  panel(gpu, optics, panelGeometry(optics), vk::Format(format), pipelines.renderPass()),
 	  eyes(gpu, optics, eyesGeometry(optics), vk::Format(format), pipelines.renderPass()),
 	  sampler(makeSampler(gpu)),
-	  eyeBlocks(gpu, 2 * bandCount),
-	  layerBlocks(gpu, 2 * bandCount * maxDrawnLayers),
+	  eyeBlocks(gpu, eyeSetCount),
 	  cameraImages(gpu),
 	  angleTables{makeAngleTable(gpu, optics, 0), makeAngleTable(gpu, optics, 1)},
 	  noLayer(device, oneTexel()),
-	  layerImages(gpu, pipelines.layerSetLayout(), *sampler, layerBlocks.buffer()),
+	  layerImages(gpu, pipelines.layerSetLayout(), *sampler),
 	  pool(makePool(gpu)),
 	  eyeSets(makeSets(gpu, pool, pipelines)),
 	  commandPool(gpu.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, gpu.queueFamily}),
@@ -167,15 +169,16 @@ PanelRenderer::Implementation::Implementation(gpu::Device &device, const Rig &ri
 void PanelRenderer::Implementation::bindPlanes(size_t eye)
 {
 	const auto planes = cameraImages.planes(eye);
-	const vk::DescriptorBufferInfo block{eyeBlocks.buffer(), 0, sizeof(shaders::EyeBlock)};
 	std::array<vk::DescriptorImageInfo, 3> images;
 	images[0] = {*sampler, planes[0], Layout::eShaderReadOnlyOptimal};
 	images[1] = {*sampler, planes[1], Layout::eShaderReadOnlyOptimal};
 	images[2] = {*sampler, *angleTables[lensOf[eye]].view, Layout::eShaderReadOnlyOptimal};
-	const vk::DescriptorSet set = *eyeSets[eye];
-	gpu.device.updateDescriptorSets({vk::WriteDescriptorSet{set, 0, 0, Type::eUniformBufferDynamic, {}, block},
-									 vk::WriteDescriptorSet{set, 1, 0, Type::eCombinedImageSampler, images}},
-									{});
+	for (uint32_t index = uint32_t(eye) * bandCount; index < (eye + 1) * bandCount; ++index) {
+		const vk::DescriptorBufferInfo block{eyeBlocks.buffer(), eyeBlocks.offset(index), sizeof(shaders::EyeBlock)};
+		gpu.device.updateDescriptorSets({vk::WriteDescriptorSet{*eyeSets[index], 0, 0, Type::eUniformBuffer, {}, block},
+										 vk::WriteDescriptorSet{*eyeSets[index], 1, 0, Type::eCombinedImageSampler, images}},
+										{});
+	}
 }
 
 void PanelRenderer::Implementation::uploadCameras(const PanelInputs &inputs)
@@ -212,12 +215,14 @@ void PanelRenderer::Implementation::writeVertices(const Drawing &drawing)
 void PanelRenderer::Implementation::drawItems(const Drawing &drawing) const
 {
 	const LayerImages::Entry *none = layerImages.find(noImage);
+	constexpr shaders::LayerBlock unused{};
 	commands().bindVertexBuffers(0, *vertices->buffer, vk::DeviceSize(0));
 	for (const DrawItem &item : drawing.items) {
 		const LayerImages::Entry *layer = item.pipeline.layer ? layerImages.find(item.image) : none;
 		commands().bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines.at(item.pipeline));
-		commands().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0, {*eyeSets[item.eye], *layer->set},
-									  {eyeBlocks.offset(item.eyeBlock), layerBlocks.offset(item.layerBlock)});
+		commands().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0, {*eyeSets[item.eyeBlock], *layer->set}, {});
+		const shaders::LayerBlock &block = item.pipeline.layer ? drawing.layerBlocks[item.layerBlock] : unused;
+		commands().pushConstants<shaders::LayerBlock>(pipelines.layout(), vk::ShaderStageFlagBits::eVertex, 0, block);
 		commands().draw(item.vertexCount, 1, item.firstVertex, 0);
 	}
 }
@@ -225,7 +230,6 @@ void PanelRenderer::Implementation::drawItems(const Drawing &drawing) const
 void PanelRenderer::Implementation::record(Canvas &canvas, const PanelInputs &inputs, const Drawing &drawing)
 {
 	eyeBlocks.write(drawing.eyeBlocks);
-	layerBlocks.write(drawing.layerBlocks);
 	writeVertices(drawing);
 	const auto entries = imagesOf(drawing);
 	const vk::Extent2D extent = canvas.extent();
@@ -236,8 +240,6 @@ void PanelRenderer::Implementation::record(Canvas &canvas, const PanelInputs &in
 	commands().beginRenderPass({pipelines.renderPass(), *canvas.framebuffer, {{}, extent}, black}, vk::SubpassContents::eInline);
 	commands().setViewport(0, vk::Viewport{0, 0, float(extent.width), float(extent.height), 0, 1});
 	commands().setScissor(0, vk::Rect2D{{}, extent});
-	commands().pushConstants<float>(pipelines.layout(), vk::ShaderStageFlagBits::eVertex, 0,
-									{2.0f / float(extent.width), 2.0f / float(extent.height)});
 	drawItems(drawing);
 	commands().endRenderPass();
 	layerImages.release(commands(), entries);

@@ -1,6 +1,7 @@
 #include "runtime/compositor/pipelines.h"
 #include "shaders/panel.frag.h"
 #include "shaders/panel.vert.h"
+#include "shaders/panel_blocks.h"
 #include <array>
 
 namespace arift
@@ -39,18 +40,26 @@ vk::raii::RenderPass makeRenderPass(const gpu::Device::Handles &gpu, vk::Format 
 template <size_t count> vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device::Handles &gpu, std::array<Type, count> types)
 {
 	std::array<vk::DescriptorSetLayoutBinding, count> bindings;
-	for (uint32_t i = 0; i < count; ++i) bindings[i] = {i, types[i], 1, vk::ShaderStageFlagBits::eFragment};
+	for (uint32_t i = 0; i < count; ++i) {
+		const bool block = types[i] == Type::eUniformBuffer;
+		bindings[i] = {i, types[i], 1, block ? vk::ShaderStageFlagBits::eVertex : vk::ShaderStageFlagBits::eFragment};
+	}
 	return {gpu.device, {{}, bindings}};
 }
 
 vk::raii::PipelineLayout makeLayout(const gpu::Device::Handles &gpu, vk::DescriptorSetLayout eye, vk::DescriptorSetLayout layer)
 {
 	const std::array sets{eye, layer};
-	const vk::PushConstantRange extent{vk::ShaderStageFlagBits::eVertex, 0, 2 * sizeof(float)};
-	return {gpu.device, {{}, sets, extent}};
+	const vk::PushConstantRange layerBlock{vk::ShaderStageFlagBits::eVertex, 0, sizeof(shaders::LayerBlock)};
+	return {gpu.device, {{}, sets, layerBlock}};
 }
 
-/// In the order of the shader's constant ids: words.
+/// In the order of the vertex shader's constant ids.
+struct VertexConstants {
+	float clipPerPixelX, clipPerPixelY, lensVectorPerPixel;
+};
+
+/// In the order of the fragment shader's constant ids.
 struct Constants {
 	int32_t distortionCoefficients, cameraCoefficients;
 	VkBool32 tangential;
@@ -59,9 +68,8 @@ struct Constants {
 	PanelNumbers numbers;
 };
 
-Constants constantsFor(const PanelOptics &optics, const PipelineKey &key)
+Constants constantsFor(const PanelOptics &optics, const ViewGeometry &geometry, const PipelineKey &key)
 {
-	const ViewGeometry geometry = key.throughLens ? panelGeometry(optics) : eyesGeometry(optics);
 	return {int32_t(optics.shaderLens.coefficients),
 			int32_t(optics.cameraCoefficients),
 			optics.tangential,
@@ -71,6 +79,14 @@ Constants constantsFor(const PanelOptics &optics, const PipelineKey &key)
 			key.throughLens,
 			optics.redItself,
 			numbersFor(optics, geometry, key.camera)};
+}
+
+/// Constants are words: the entry of every id.
+template <typename Words> auto entriesOf()
+{
+	std::array<vk::SpecializationMapEntry, sizeof(Words) / 4> entries;
+	for (uint32_t i = 0; i < entries.size(); ++i) entries[i] = vk::SpecializationMapEntry{i, 4 * i, 4};
+	return entries;
 }
 
 vk::PipelineColorBlendAttachmentState blendState(Blend blend)
@@ -94,13 +110,15 @@ struct Factory {
 
 	vk::raii::Pipeline make(const PipelineKey &key) const
 	{
-		const Constants constants = constantsFor(optics, key);
-		std::array<vk::SpecializationMapEntry, sizeof(Constants) / 4> entries;
-		for (uint32_t i = 0; i < entries.size(); ++i) entries[i] = vk::SpecializationMapEntry{i, 4 * i, 4};
-		const vk::SpecializationInfo specialization{uint32_t(entries.size()), entries.data(), sizeof(Constants), &constants};
-		const std::array stages{
-			vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main"},
-			vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", &specialization}};
+		const ViewGeometry geometry = key.throughLens ? panelGeometry(optics) : eyesGeometry(optics);
+		const VertexConstants size{2.0f / float(geometry.width), 2.0f / float(geometry.height), float(geometry.eyes[0].perPixel.x)};
+		const Constants constants = constantsFor(optics, geometry, key);
+		const auto sizeEntries = entriesOf<VertexConstants>();
+		const auto entries = entriesOf<Constants>();
+		const vk::SpecializationInfo bySize{uint32_t(sizeEntries.size()), sizeEntries.data(), sizeof size, &size};
+		const vk::SpecializationInfo byOptics{uint32_t(entries.size()), entries.data(), sizeof constants, &constants};
+		const std::array stages{vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &bySize},
+								vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", &byOptics}};
 		const vk::VertexInputBindingDescription binding{0, 2 * sizeof(int16_t)};
 		const vk::VertexInputAttributeDescription attribute{0, 0, vk::Format::eR16G16Sint, 0};
 		const vk::PipelineVertexInputStateCreateInfo input{{}, binding, attribute};
@@ -122,7 +140,8 @@ struct Factory {
 /// What can lie behind layers, for one kind of view.
 std::vector<PipelineKey> backdrops(const PanelOptics &optics, bool throughLens)
 {
-	std::vector<PipelineKey> keys{{.background = Background::pattern, .throughLens = throughLens}};
+	std::vector<PipelineKey> keys{{.background = Background::pattern, .throughLens = throughLens},
+								  {.background = Background::unseen, .throughLens = throughLens}};
 	for (uint32_t camera = 0; camera < optics.cameras.size(); ++camera)
 		for (const Background background : {Background::grey, Background::bayer})
 			for (const bool encoded : {false, true})
@@ -152,9 +171,9 @@ std::vector<PipelineKey> everyKey(const PanelOptics &optics)
 
 Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const PanelOptics &optics)
 	: renderPass_(makeRenderPass(gpu, format)),
-	  eyeSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBufferDynamic, Type::eCombinedImageSampler, Type::eCombinedImageSampler,
-												  Type::eCombinedImageSampler})),
-	  layerSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBufferDynamic, Type::eCombinedImageSampler})),
+	  eyeSetLayout_(makeSetLayout(
+		  gpu, std::array{Type::eUniformBuffer, Type::eCombinedImageSampler, Type::eCombinedImageSampler, Type::eCombinedImageSampler})),
+	  layerSetLayout_(makeSetLayout(gpu, std::array{Type::eCombinedImageSampler})),
 	  layout_(makeLayout(gpu, *eyeSetLayout_, *layerSetLayout_))
 {
 	const Factory factory{gpu, optics, *layout_, *renderPass_};

@@ -9,7 +9,7 @@ namespace arift
 {
 
 /// The shader's `background` constant.
-enum class Background : uint32_t { none, pattern, grey, bayer };
+enum class Background : uint32_t { none, pattern, grey, bayer, unseen };
 
 struct PipelineKey {
 	Blend blend = Blend::replace;
@@ -28,7 +28,7 @@ public:
 
 	vk::RenderPass renderPass() const { return *renderPass_; }
 	vk::PipelineLayout layout() const { return *layout_; }
-	/// Set 0: eye block, camera planes, angle table. Set 1: layer block, layer image.
+	/// Set 0: eye block, camera planes, angle table. Set 1: layer image. Push constants: layer block.
 	vk::DescriptorSetLayout eyeSetLayout() const { return *eyeSetLayout_; }
 	vk::DescriptorSetLayout layerSetLayout() const { return *layerSetLayout_; }
 	vk::Pipeline at(const PipelineKey &key) const { return *pipelines_.at(key); }

@@ -12,8 +12,6 @@ namespace
 
 static_assert(bandCount == 2);
 
-/// Red and blue see a layer at tangents that differ by at most this from green's.
-constexpr std::array colours{0.985, 1.02};
 /// How much further than its corners the inside of a tile may reach: the lens bends its edges.
 constexpr double bulge = 0.25;
 
@@ -25,15 +23,6 @@ std::array<int, 2> circleColumns(const PixelRect &area, glm::dvec2 centre, doubl
 	const double half = std::sqrt(radius * radius - nearest * nearest);
 	return {std::max(area.x0, int(std::floor(std::max(centre.x - half, double(area.x0))))),
 			std::min(area.x1, int(std::ceil(std::min(centre.x + half, double(area.x1)))))};
-}
-
-glm::dmat3 atRow(const TileGrid &grid, const MatrixByBand &m, int row)
-{
-	const uint32_t band = row == grid.rows() ? bandCount - 1 : grid.bandOf(row);
-	const double y = std::min(row * TileGrid::tileHeight, grid.bandBegin(bandCount));
-	const double begin = grid.bandBegin(band), end = grid.bandBegin(band + 1);
-	const double s = (y - begin) / (end - begin);
-	return m[band] * (1 - s) + m[band + 1] * s;
 }
 
 /// What a layer's coordinates do at one corner, over all colours.
@@ -71,11 +60,11 @@ std::vector<Reach> reachOfCorners(const TileGrid &grid, const MatrixByBand &uvMa
 	std::vector<Reach> reach;
 	reach.reserve(size_t(grid.rows() + 1) * size_t(grid.columns() + 1));
 	for (int row = 0; row <= grid.rows(); ++row) {
-		const glm::dmat3 m = atRow(grid, uvMatrix, row);
+		const glm::dmat3 m = matrixAtRow(grid, uvMatrix, row);
 		for (int column = 0; column <= grid.columns(); ++column) {
 			const glm::dvec2 t = grid.corner(column, row);
 			Reach &here = reach.emplace_back();
-			for (const double colour : colours) here.add(m * glm::dvec3(t * colour, 1));
+			for (const double colour : extremeColours) here.add(m * glm::dvec3(t * colour, 1));
 		}
 	}
 	return reach;
@@ -85,10 +74,10 @@ std::vector<Reach> reachOfCorners(const TileGrid &grid, const MatrixByBand &uvMa
 class Plan
 {
 public:
-	void add(Blend blend, bool backdrop, int layer, uint32_t band, const PixelRect &rect)
+	void add(Blend blend, Behind behind, int layer, uint32_t band, const PixelRect &rect)
 	{
 		// The bottom-most of a tile first, then layers upwards, then light that is added to all of them.
-		auto &rects = byDraw_[{blend, blend == Blend::over ? layer : 0, band, layer, backdrop}];
+		auto &rects = byDraw_[{blend, blend == Blend::over ? layer : 0, band, layer, behind}];
 		if (!rects.empty() && rects.back().y0 == rect.y0 && rects.back().x1 == rect.x0)
 			rects.back().x1 = rect.x1;
 		else
@@ -98,17 +87,26 @@ public:
 	{
 		std::vector<TileDraw> draws;
 		for (auto &[key, rects] : byDraw_) {
-			const auto &[blend, order, band, layer, backdrop] = key;
-			draws.push_back({blend, backdrop, layer, band, std::move(rects)});
+			const auto &[blend, order, band, layer, behind] = key;
+			draws.push_back({blend, behind, layer, band, std::move(rects)});
 		}
 		return draws;
 	}
 
 private:
-	std::map<std::tuple<Blend, int, uint32_t, int, bool>, std::vector<PixelRect>> byDraw_;
+	std::map<std::tuple<Blend, int, uint32_t, int, Behind>, std::vector<PixelRect>> byDraw_;
 };
 
 } // namespace
+
+glm::dmat3 matrixAtRow(const TileGrid &grid, const MatrixByBand &m, int row)
+{
+	const uint32_t band = row == grid.rows() ? bandCount - 1 : grid.bandOf(row);
+	const double y = std::min(row * TileGrid::tileHeight, grid.bandBegin(bandCount));
+	const double begin = grid.bandBegin(band), end = grid.bandBegin(band + 1);
+	const double s = (y - begin) / (end - begin);
+	return m[band] * (1 - s) + m[band + 1] * s;
+}
 
 TileGrid::TileGrid(PixelRect area, glm::dvec2 centre, double radius, const std::function<glm::dvec2(glm::dvec2)> &tangents)
 	: area_(area), columns_((area.x1 - area.x0 + tileWidth - 1) / tileWidth), rows_((area.y1 - area.y0 + tileHeight - 1) / tileHeight)
@@ -153,7 +151,8 @@ std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix)
 	return cover;
 }
 
-std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const PlannedLayer> layers)
+std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const PlannedLayer> layers,
+								const std::vector<bool> &seen)
 {
 	const bool environment = blendMode != XR_ENVIRONMENT_BLEND_MODE_OPAQUE, additive = blendMode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
 	Plan plan;
@@ -175,9 +174,11 @@ std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode ble
 		// Light is added to the finished picture of the layers: with one layer in the same pass, with more after them.
 		const bool later = additive && here.size() > 1;
 		const uint32_t band = grid.bandOf(row);
-		if (backdrop || !here.empty()) plan.add(Blend::replace, backdrop && !later, here.empty() ? -1 : here.front(), band, rect);
-		for (size_t i = 1; i < here.size(); ++i) plan.add(Blend::over, false, here[i], band, rect);
-		if (later) plan.add(Blend::add, true, -1, band, rect);
+		const Behind behind = seen.empty() || seen[index] ? Behind::camera : Behind::unseen;
+		if (backdrop || !here.empty())
+			plan.add(Blend::replace, backdrop && !later ? behind : Behind::nothing, here.empty() ? -1 : here.front(), band, rect);
+		for (size_t i = 1; i < here.size(); ++i) plan.add(Blend::over, Behind::nothing, here[i], band, rect);
+		if (later) plan.add(Blend::add, behind, -1, band, rect);
 	};
 	for (int row = 0; row < grid.rows(); ++row)
 		for (int column = 0; column < grid.columns(); ++column) addTile(column, row);

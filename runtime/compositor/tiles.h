@@ -49,14 +49,21 @@ private:
 	std::vector<std::array<int, 2>> visible_; ///< first and last column of pixels, by row of tiles
 };
 
+/// Red and blue are seen at tangents that differ by at most these factors from green's.
+inline constexpr std::array extremeColours{0.985, 1.02};
+/// At the upper edge of a row of tiles; of `grid.rows()`: at the lower edge of the last.
+glm::dmat3 matrixAtRow(const TileGrid &grid, const MatrixByBand &m, int row);
+
 enum class Cover : uint8_t { none, partly, fully };
 /// By tile, row by row: where a layer with these matrices (reprojection.h) lies. Never says `none` or `fully` in error, for any colour.
 std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix);
 
 enum class Blend : uint32_t { replace, over, add };
+/// What stands behind a tile's layers: the camera's image, or what is shown where it sees nothing.
+enum class Behind : uint8_t { nothing, unseen, camera };
 struct TileDraw {
 	Blend blend = Blend::replace;
-	bool backdrop = false; ///< camera, or what stands for it
+	Behind behind = Behind::nothing;
 	int layer = -1;
 	uint32_t band = 0;
 	std::vector<PixelRect> rects;
@@ -65,7 +72,8 @@ struct PlannedLayer {
 	std::vector<Cover> cover; ///< empty: this eye does not see it
 	bool opaque = false;
 };
-/// The draws of one eye in their order.
-std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const PlannedLayer> layers);
+/// The draws of one eye in their order. `seen`: by tile, where the camera's image is asked for; empty: everywhere.
+std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const PlannedLayer> layers,
+								const std::vector<bool> &seen = {});
 
 } // namespace arift

@@ -86,7 +86,7 @@ TEST(PlanDraws, anOpaqueLayerOverAWholeTileLeavesNothingBelow)
 							PlannedLayer{coverage(grid, window(-2, 2, 2, -2)), true}};
 	for (const TileDraw &draw : planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, layers)) {
 		EXPECT_EQ(draw.layer, 1);
-		EXPECT_FALSE(draw.backdrop);
+		EXPECT_EQ(draw.behind, Behind::nothing);
 	}
 }
 
@@ -100,7 +100,18 @@ TEST(PlanDraws, addedLightComesLast)
 	for (const TileDraw &draw : draws)
 		if (draw.band == 0) order.emplace_back(draw.blend, draw.layer);
 	EXPECT_EQ(order, (std::vector<std::pair<Blend, int>>{{Blend::replace, 0}, {Blend::over, 1}, {Blend::over, 2}, {Blend::add, -1}}));
-	for (const TileDraw &draw : draws) EXPECT_EQ(draw.backdrop, draw.blend == Blend::add);
+	for (const TileDraw &draw : draws) EXPECT_EQ(draw.behind, draw.blend == Blend::add ? Behind::camera : Behind::nothing);
+}
+
+TEST(PlanDraws, theCameraIsAskedOnlyWhereItSees)
+{
+	const TileGrid grid = plainGrid();
+	std::vector<bool> seen(size_t(grid.rows() * grid.columns()));
+	for (size_t i = 0; i < seen.size(); ++i) seen[i] = int(i) % grid.columns() < 5;
+	const std::array layers{PlannedLayer{coverage(grid, window(-2, 2, 2, -2)), false}};
+	for (const TileDraw &draw : planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, layers, seen))
+		for (const PixelRect &rect : draw.rects)
+			EXPECT_EQ(draw.behind, rect.x0 < 5 * TileGrid::tileWidth ? Behind::camera : Behind::unseen);
 }
 
 TEST(PlanDraws, withoutEnvironmentOrLayersNothingIsDrawn)

@@ -80,15 +80,15 @@ double area(const reference::Lens &lens, int eye, int channel, const Vector2d &p
 }
 
 /// The fit looks at an ellipse this much larger than the disc's box; its rim must be dark.
-constexpr double reach = 1.5, rim = 1.3;
+constexpr double fitReach = 1.5, fitRim = 1.3;
 
 std::optional<Spot> fit(const Light &light, const reference::Lens &lens, int eye, int channel, const Box &box)
 {
 	const int wide = box.right - box.left, high = box.bottom - box.top;
 	if (wide < 5 || high < 5 || wide > 120 || high > 120 || wide > 2 * high || high > 2 * wide) return std::nullopt;
 	const Vector2d centre((box.left + box.right) / 2.0, (box.top + box.bottom) / 2.0), half(wide / 2.0, high / 2.0);
-	const Eigen::Vector2i low = (centre - reach * half).array().floor().matrix().cast<int>();
-	const Eigen::Vector2i end = (centre + reach * half).array().ceil().matrix().cast<int>();
+	const Eigen::Vector2i low = (centre - fitReach * half).array().floor().matrix().cast<int>();
+	const Eigen::Vector2i end = (centre + fitReach * half).array().ceil().matrix().cast<int>();
 	const int start = eye * light.halfWidth();
 	if (low.x() < start || low.y() < 0 || end.x() > start + light.halfWidth() || end.y() > light.height()) return std::nullopt;
 	Spot spot;
@@ -97,9 +97,9 @@ std::optional<Spot> fit(const Light &light, const reference::Lens &lens, int eye
 		for (int x = low.x(); x < end.x(); ++x) {
 			const Vector2d pixel(x + 0.5, y + 0.5);
 			const double out = (pixel - centre).cwiseQuotient(half).norm(), value = light.at(x, y, channel);
-			if (out > reach) continue;
+			if (out > fitReach) continue;
 			spot.peak = std::max(spot.peak, value);
-			if (out > rim) brightestRim = std::max(brightestRim, value);
+			if (out > fitRim) brightestRim = std::max(brightestRim, value);
 			const double weight = value * area(lens, eye, channel, pixel);
 			spot.tangents += weight * lens.tangents(eye, channel, pixel);
 			total += weight;

@@ -376,9 +376,9 @@ TEST(Starting, AMissingRigIsToldToWhoConnects)
 TEST(Starting, ASecondServiceSaysWhoHasTheLock)
 {
 	PrivateService first(stepped);
-	ChildProcess second({(programDirectory() / "arift-service").string()}, first.tree().environment(), first.tree().root() / "second.log");
-	EXPECT_EQ(second.wait(std::chrono::seconds(60)), 1);
-	EXPECT_NE(second.output().find("another arift-service is running"), std::string::npos) << second.output();
+	ChildProcess another({(programDirectory() / "arift-service").string()}, first.tree().environment(), first.tree().root() / "second.log");
+	EXPECT_EQ(another.wait(std::chrono::seconds(60)), 1);
+	EXPECT_NE(another.output().find("another arift-service is running"), std::string::npos) << another.output();
 	EXPECT_TRUE(first.status().contains("service"));
 	EXPECT_EQ(first.process().stop(), 0) << "SIGTERM is an orderly end";
 }

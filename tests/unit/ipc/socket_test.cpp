@@ -156,7 +156,8 @@ TEST(Socket, APeerThatHangsUpIsNoticed)
 
 TEST(Socket, HangUpEndsAWaitInAnotherThread)
 {
-	auto [a, b] = Socket::pair();
+	auto ends = Socket::pair();
+	Socket &b = ends.second;
 	Transfer outcome = Transfer::done;
 	std::thread waiting([&] {
 		Received received;
