@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # See the world through the headset with a hologram in it: installs, builds, runs, takes pictures and prints the figures.
 set -euo pipefail
+here=$PWD # what the command line names lies there
 cd "$(dirname "$0")/.."
 . tools/packages.sh
 
@@ -13,13 +14,15 @@ With a display (DISPLAY is set) the panel is shown in a window as well.
   --seconds N       how long to run before the pictures are taken (default 10)
   --recording PATH  instead of the synthetic sensors: a folder in the EuRoC layout (cameras and tracker), or a .brd file (tracker alone)
   --motion FILE     how the synthetic head moves: a recorded trajectory (.csv or .brd)
-  --app COMMAND ... any OpenXR application instead of the sample; takes the rest of the line
+  --app COMMAND ... any OpenXR application instead of the sample, run where you stand; takes the rest of the line
 TEXT
 }
 stop() {
 	echo "tools/demo.sh: $*" >&2
 	exit 2
 }
+
+absolute() { case "$1" in /*) echo "$1" ;; *) echo "$here/$1" ;; esac; }
 
 seconds=10
 recording=
@@ -33,13 +36,14 @@ while [ $# -gt 0 ]; do
 		shift
 		;;
 	--recording)
-		[ -d "${2:-}" ] || [[ -f ${2:-} && $2 == *.brd ]] || stop "--recording expects a folder in the EuRoC layout or a .brd file, found \"${2:-}\""
-		recording=$(realpath "$2")
+		recording=$(absolute "${2:-}")
+		[ -n "${2:-}" ] && { [ -d "$recording" ] || [[ -f $recording && $recording == *.brd ]]; } ||
+			stop "--recording expects a folder in the EuRoC layout or a .brd file, found \"${2:-}\""
 		shift
 		;;
 	--motion)
-		[ -f "${2:-}" ] || stop "--motion expects a file, found \"${2:-}\""
-		motion=$(realpath "$2")
+		motion=$(absolute "${2:-}")
+		[ -f "$motion" ] || stop "--motion expects a file, found \"${2:-}\""
 		shift
 		;;
 	--app)
@@ -70,17 +74,33 @@ bin=$PWD/$build/bin
 work=$(mktemp -d)
 service_pid=
 app_pid=
+# end PID: asks it to, and after five seconds makes it.
+end() {
+	kill "$1" 2>/dev/null || return 0
+	for ((waited = 0; waited < 50; ++waited)); do
+		kill -0 "$1" 2>/dev/null || break
+		sleep 0.1
+	done
+	kill -KILL "$1" 2>/dev/null || true
+	wait "$1" 2>/dev/null || true
+}
 finish() {
-	local pid
-	for pid in $app_pid $service_pid; do kill "$pid" 2>/dev/null && wait "$pid" 2>/dev/null || true; done
+	local result=$? pid
+	for pid in $app_pid $service_pid; do end "$pid"; done
+	[ "$result" -eq 0 ] || [ ! -s "$work/service.log" ] || { echo "the service's last words:" >&2 && tail -20 "$work/service.log" >&2; }
 	rm -rf "$work"
 }
 trap finish EXIT
 trap 'exit 130' INT TERM
 mkdir -m 700 "$work/run" "$work/config" "$work/state"
-export XDG_RUNTIME_DIR=$work/run XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state
+# The application keeps its settings and, through links, the sockets of the desktop it runs on; only the service's folders are others.
+if [ -d "${XDG_RUNTIME_DIR:-}" ]; then
+	for socket in "$XDG_RUNTIME_DIR"/{wayland-*,pipewire-*,pulse,bus}; do [ ! -e "$socket" ] || ln -s "$socket" "$work/run/"; done
+fi
+export XDG_RUNTIME_DIR=$work/run
 export XR_RUNTIME_JSON=$PWD/$build/openxr_arift.json
 unset ARIFT_CONFIG ARIFT_SERVICE XR_ENABLE_API_LAYERS
+private=(env "XDG_CONFIG_HOME=$work/config" "XDG_STATE_HOME=$work/state")
 
 settings=(--set headset.driver=synthetic)
 if [ -n "$recording" ]; then
@@ -91,20 +111,19 @@ fi
 [ -n "${DISPLAY:-}" ] && settings+=(--set compositor.target=window) || settings+=(--set compositor.target=offscreen)
 
 echo "starting the service: arift-service ${settings[*]}"
-"$bin/arift-service" "${settings[@]}" >"$work/service.log" 2>&1 &
+began=$(date +%s%N)
+"${private[@]}" "$bin/arift-service" "${settings[@]}" >"$work/service.log" 2>&1 &
 service_pid=$!
 for ((tries = 0; ; ++tries)); do
 	"$bin/arift" status --json >"$work/status.json" 2>/dev/null && break
-	if [ "$tries" -ge 300 ] || ! kill -0 "$service_pid" 2>/dev/null; then
-		cat "$work/service.log" >&2
-		stop "the service did not start"
-	fi
-	sleep 0.1
+	if [ "$tries" -ge 600 ] || ! kill -0 "$service_pid" 2>/dev/null; then stop "the service did not start"; fi
+	sleep 0.05
 done
+started=$((($(date +%s%N) - began) / 1000000))
 
 [ ${#app[@]} -gt 0 ] || app=("$bin/hologram_cube")
 echo "running ${app[*]} for $seconds s"
-"${app[@]}" >"$work/app.log" 2>&1 &
+(cd "$here" && exec "${app[@]}") >"$work/app.log" 2>&1 &
 app_pid=$!
 app_ended() {
 	cat "$work/app.log" >&2
@@ -122,26 +141,30 @@ done
 mkdir -p demo
 "$bin/arift" screenshot demo/panel.png
 "$bin/arift" screenshot --eyes demo/eyes.png
-kill "$app_pid" 2>/dev/null && wait "$app_pid" 2>/dev/null || true
+end "$app_pid"
 app_pid=
+end "$service_pid" # what is measured next has the machine for itself
+service_pid=
 
 # Registration is measured on a service of its own, in stepped time: the same figure on every machine.
 echo "measuring the registration error"
-if "$registration" >"$work/registration.json" 2>"$work/registration.log"; then
-	error=$(jq -r '"\(.median) / \(.p99)"' "$work/registration.json")
-else
-	error=-
+"${private[@]}" "$registration" >"$work/registration.json" 2>"$work/registration.log" || {
 	cat "$work/registration.log" >&2
-fi
+	stop "the registration error could not be measured"
+}
+error=$(jq -r '[.median, .p99] | map(. * 100 | round / 100 | tostring) | join(" / ")' "$work/registration.json")
 
 figure() { jq -r "$1" "$work/status.json"; }
 row() { printf '  %-44s %s\n' "$1" "$2"; }
 echo
 echo "$(figure .headset.name), $(figure '[.clients[].name] | join(", ")')"
-row "frames shown per second" "$(figure .frames.perSecond)"
+row "start-up of the service, ms" "$started"
+row "frames shown per second" "$(figure '.frames.perSecond | . * 10 | round / 10')"
+row "CPU per shown frame, ms" "$(figure '.frames.cpuMsPerFrame | . * 10 | round / 10')"
 row "missed frames" "$(figure .frames.missed)"
 row "age of the camera image when shown, ms *" "$(figure '"\(.frames.cameraAgeMs.median) / \(.frames.cameraAgeMs.p99)"')"
 row "age of the pose when shown, ms *" "$(figure '"\(.frames.poseAgeMs.median) / \(.frames.poseAgeMs.p99)"')"
-row "registration error, panel pixels *" "$error"
+row "registration error, panel pixels * **" "$error"
 echo "  * median / 99th percentile"
+echo "  ** hologram against marker: synthetic sensors without noise, 2 m away, head turning at 100 degrees a second, in stepped time"
 echo "pictures: demo/panel.png (what the display shows), demo/eyes.png (both eyes before the lens correction)"
