@@ -2,7 +2,9 @@
 cmake_minimum_required(VERSION 3.22)
 set(longest_readme 30)
 set(longest_source 400)
-set(tops cmake runtime drivers shaders manifests calib samples tests tools)
+set(tops .ci cmake docs runtime drivers shaders manifests calib samples tests tools)
+# Inputs for fuzzers, many small files: tests/fuzz explains them.
+set(without_readme "^tests/fuzz/corpus(/|$)")
 
 # Lines of a file, empty ones included.
 function(count_lines file result)
@@ -15,10 +17,10 @@ endfunction()
 set(failures "")
 set(checked 0)
 foreach(top ${tops})
-	file(GLOB children RELATIVE ${ROOT} ${ROOT}/${top}/*)
+	file(GLOB_RECURSE children LIST_DIRECTORIES true RELATIVE ${ROOT} ${ROOT}/${top}/*)
 	set(folders ${top})
 	foreach(child ${children})
-		if(IS_DIRECTORY ${ROOT}/${child})
+		if(IS_DIRECTORY ${ROOT}/${child} AND NOT child MATCHES "${without_readme}")
 			list(APPEND folders ${child})
 		endif()
 	endforeach()
