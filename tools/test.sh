@@ -8,7 +8,7 @@ usage() {
 	cat <<'TEXT'
 usage: tools/test.sh [--quick] [--all] [--long] [--only STAGE]...
   --quick       packages, format and the release build's tests without the end-to-end ones: what every commit must pass
-  --all         clang-tidy reads every file, not only those that the newest commit and the working tree change
+  --all         clang-tidy reads every file, however long it takes, not only those that changed
   --long        the long figures as well (tests labelled "long")
   --only STAGE  run this stage alone (may be given again): packages format release asan fuzz tsan tidy bench
 TEXT
@@ -56,10 +56,7 @@ trap 'rm -rf "$work"' EXIT
 export NINJA_STATUS='[%f/%t] ' CTEST_OUTPUT_ON_FAILURE=1 CCACHE_NOHASHDIR=1
 unset ARIFT_CONFIG ARIFT_SERVICE XR_RUNTIME_JSON XR_ENABLE_API_LAYERS DISPLAY WAYLAND_DISPLAY
 label_filter=(-LE long)
-if $long; then
-	label_filter=()
-	export ARIFT_LONG=1
-fi
+if $long; then label_filter=(); fi
 if $quick; then label_filter=(-LE 'long|e2e'); fi
 suppressions=$PWD/tests/suppressions
 sanitizers=(
@@ -96,11 +93,18 @@ stage_format() {
 }
 
 stage_release() {
-	build release && run_ctest release release "${label_filter[@]}"
+	local result
+	build release || return 1
+	run_ctest release release "${label_filter[@]}"
+	result=$?
+	echo
+	echo "figures that tests found:"
+	grep -ha '^\[ FIGURE' build/release/Testing/Temporary/LastTest.log || echo "  none"
+	return $result
 }
 
 stage_asan() {
-	build asan && (export "${sanitizers[@]}" && run_ctest asan asan -LE 'long|layering')
+	build asan && (export "${sanitizers[@]}" && run_ctest asan asan -LE 'long|layering|figures')
 }
 
 # Each fuzzer runs its committed corpus as a test of the asan build already; here it also looks for new inputs.
@@ -129,26 +133,63 @@ stage_tsan() {
 	build tsan thread_tests && (export "${sanitizers[@]}" && run_ctest tsan tsan -L threads -LE 'long|gpu')
 }
 
-# Two at a time, at most eight minutes: what is left then is named and belongs to a run with --all.
+# Where the changes under test begin: where they left the last release or the main branch, else the commit before. Nothing where the
+# clone is too shallow to know.
+changes_begin() {
+	local head from base
+	head=$(git rev-parse HEAD)
+	for from in "$(git describe --tags --abbrev=0 2>/dev/null)" origin/HEAD HEAD~1; do
+		base=$(git merge-base HEAD "${from:-none}" 2>/dev/null) && [ "$base" != "$head" ] && echo "$base" && return
+	done
+	return 1
+}
+# includers HEADER: the files that include it, by its path from the root or, beside it, by its name.
+includers() {
+	git grep --untracked -lE "^[ 	]*#[ 	]*include[ 	]*[\"<]$1[\">]" -- '*.h' '*.cpp'
+	git grep --untracked -lE "^[ 	]*#[ 	]*include[ 	]*\"${1##*/}\"" -- "${1%/*}/*.h" "${1%/*}/*.cpp"
+}
+# The .cpp files through which clang-tidy sees what changed since a commit: those changed first, then those that include a changed header,
+# by way of other headers where no other file does.
+changed_since() {
+	local headers header found
+	{ git diff --name-only --diff-filter=d "$1" -- '*.h' '*.cpp'; git ls-files --others --exclude-standard -- '*.h' '*.cpp'; } | sort -u >"$work/changed"
+	grep '\.cpp$' "$work/changed"
+	headers=$(grep '\.h$' "$work/changed")
+	while [ -n "$headers" ]; do
+		for header in $headers; do
+			found=$(includers "$header" | sort -u)
+			grep '\.cpp$' <<<"$found" || grep '\.h$' <<<"$found" >>"$work/passed_on"
+		done
+		headers=$(sort -u "$work/passed_on" 2>/dev/null | grep -vxFf "$work/changed")
+		cat "$work/passed_on" >>"$work/changed" 2>/dev/null
+		rm -f "$work/passed_on"
+	done
+}
+
+# As many at a time as there are processors, for at most eight minutes: what is left then is named and belongs to a run with --all. What the
+# newest commit changed comes first. Where it is not known what changed, every file is read as far as time allows, in another order each time.
 stage_tidy() {
-	local base files
+	local limit=480 base commit result
 	cmake --preset asan >/dev/null 2>&1 || return 1
 	if $tidy_all; then
-		files=$(sources)
+		limit=86400
+		sources | grep '\.cpp$' >"$work/tidy.files"
+	elif base=$(changes_begin); then
+		for commit in $(git rev-parse -q --verify HEAD~1) "$base"; do changed_since "$commit"; done | awk '!seen[$0]++' >"$work/tidy.files"
 	else
-		base=$(git rev-parse -q --verify HEAD~1 || git rev-parse HEAD)
-		files=$( (git diff --name-only --diff-filter=d "$base" -- '*.h' '*.cpp'; git ls-files --others --exclude-standard -- '*.h' '*.cpp') | sort -u)
+		echo "tidy: this clone does not say what changed: every file, for at most $((limit / 60)) minutes"
+		sources | grep '\.cpp$' | shuf >"$work/tidy.files"
 	fi
-	files=$(grep '\.cpp$' <<<"$files" || true)
-	[ -n "$files" ] || { echo "tidy: no changed .cpp file"; return 0; }
-	local limit=480
-	$tidy_all && limit=86400
-	echo "$files" >"$work/tidy.files"
-	deadline=$(($(date +%s) + limit)) xargs -P "$jobs" -n 1 bash -c '
-		if [ "$(date +%s)" -gt "$deadline" ]; then echo "tidy: not read for want of time: $0"; else
+	[ -s "$work/tidy.files" ] || { echo "tidy: no file changed"; return 0; }
+	: >"$work/tidy.unread"
+	deadline=$(($(date +%s) + limit)) unread=$work/tidy.unread xargs -P "$jobs" -n 1 bash -c '
+		if [ "$(date +%s)" -gt "$deadline" ]; then echo "$0" >>"$unread"; else
 			clang-tidy-14 --quiet -p build/asan "$0" 2>/dev/null
-		fi' <"$work/tidy.files" || return 1
-	echo "tidy: $(wc -l <"$work/tidy.files") files read"
+		fi' <"$work/tidy.files"
+	result=$?
+	sed 's/^/tidy: not read for want of time: /' "$work/tidy.unread"
+	echo "tidy: $(($(wc -l <"$work/tidy.files") - $(wc -l <"$work/tidy.unread"))) of $(wc -l <"$work/tidy.files") files read"
+	return $result
 }
 
 stage_bench() {
