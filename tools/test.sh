@@ -152,7 +152,10 @@ includers() {
 # by way of other headers where no other file does.
 changed_since() {
 	local headers header found
-	{ git diff --name-only --diff-filter=d "$1" -- '*.h' '*.cpp'; git ls-files --others --exclude-standard -- '*.h' '*.cpp'; } | sort -u >"$work/changed"
+	{
+		git diff --name-only --diff-filter=d "$1" -- '*.h' '*.cpp'
+		git ls-files --others --exclude-standard -- '*.h' '*.cpp'
+	} | sort -u >"$work/changed"
 	grep '\.cpp$' "$work/changed"
 	headers=$(grep '\.h$' "$work/changed")
 	while [ -n "$headers" ]; do
@@ -166,8 +169,9 @@ changed_since() {
 	done
 }
 
-# As many at a time as there are processors, for at most eight minutes: what is left then is named and belongs to a run with --all. What the
-# newest commit changed comes first. Where it is not known what changed, every file is read as far as time allows, in another order each time.
+# As many at a time as there are processors, for at most eight minutes: what is left then is named and belongs to a run with --all. What
+# the newest commit changed comes first. Where it is not known what changed, every file is read as far as time allows, in another order
+# each time.
 stage_tidy() {
 	local limit=480 base commit result
 	cmake --preset asan >/dev/null 2>&1 || return 1

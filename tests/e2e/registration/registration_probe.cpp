@@ -28,10 +28,11 @@ bool report(const Scenario &scenario, const Setting &setting, const Figures &fig
 	const bool enough = figures.samples >= 20 && figures.lonely * 20 <= figures.samples;
 	const bool near = !bound || (figures.median <= bound->median && figures.p99 <= bound->p99);
 	const char *verdict = !bound ? "" : !enough ? "TOO FEW" : near ? "ok" : "TOO FAR";
-	std::printf("%4.1f m %4.0f deg/s  offset %.0f, plane %3.1f m   median %6.3f  p99 %6.3f  max %6.3f px  mean (%+.3f, %+.3f)  "
-				"%5zu samples in %zu pictures, %zu lonely  %s\n",
-				scenario.distance, scenario.degreesPerSecond, setting.viewOffset, setting.passthroughDistance, figures.median, figures.p99,
-				figures.largest, figures.mean.x(), figures.mean.y(), figures.samples, figures.pictures, figures.lonely, verdict);
+	std::printf(
+		"[ FIGURE   ] %4.1f m %4.0f deg/s  offset %.0f, plane %3.1f m   median %6.3f  p99 %6.3f  max %6.3f px  mean (%+.3f, %+.3f)  "
+		"%5zu samples in %zu pictures, %zu lonely  %s\n",
+		scenario.distance, scenario.degreesPerSecond, setting.viewOffset, setting.passthroughDistance, figures.median, figures.p99,
+		figures.largest, figures.mean.x(), figures.mean.y(), figures.samples, figures.pictures, figures.lonely, verdict);
 	std::fflush(stdout);
 	return !bound || (enough && near);
 }

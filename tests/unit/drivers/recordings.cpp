@@ -8,7 +8,7 @@
 namespace arift::test
 {
 
-void writeGreyPng(const std::filesystem::path &file, uint32_t width, uint32_t height, uint8_t value)
+void writeGreyPng(const std::filesystem::path &file, uint32_t width, uint32_t height, std::span<const uint8_t> pixels)
 {
 	std::filesystem::create_directories(file.parent_path());
 	png_image image{};
@@ -16,8 +16,12 @@ void writeGreyPng(const std::filesystem::path &file, uint32_t width, uint32_t he
 	image.width = width;
 	image.height = height;
 	image.format = PNG_FORMAT_GRAY;
-	const std::vector<uint8_t> pixels(size_t(width) * height, value);
 	png_image_write_to_file(&image, file.c_str(), 0, pixels.data(), 0, nullptr);
+}
+
+void writeGreyPng(const std::filesystem::path &file, uint32_t width, uint32_t height, uint8_t value)
+{
+	writeGreyPng(file, width, height, std::vector<uint8_t>(size_t(width) * height, value));
 }
 
 void writeEuroc(const std::filesystem::path &folder)

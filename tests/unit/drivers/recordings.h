@@ -2,11 +2,14 @@
 #pragma once
 #include "runtime/device/driver.h"
 #include "tests/unit/drivers/support.h"
+#include <span>
 
 namespace arift::test
 {
 
-/// Writes an 8-bit grey PNG of one value.
+/// Writes an 8-bit grey PNG of width * height pixels; folders are made.
+void writeGreyPng(const std::filesystem::path &file, uint32_t width, uint32_t height, std::span<const uint8_t> pixels);
+/// One of a single value.
 void writeGreyPng(const std::filesystem::path &file, uint32_t width, uint32_t height, uint8_t value);
 
 /// Five 8 x 6 images of values 10, 20 … every 50 ms in cam0 and cam1 (whose values are one higher), IMU at 200 Hz for two seconds from half

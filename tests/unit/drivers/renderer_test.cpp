@@ -89,7 +89,7 @@ TEST(Renderer, AMarkerLiesWhereItsDirectionProjects)
 			worst = std::max(worst, error);
 		}
 	}
-	std::printf("marker centroid: worst %.3f px\n", worst);
+	std::printf("[ FIGURE   ] marker centroid: worst %.3f px\n", worst);
 }
 
 TEST(Renderer, AMarkerIsPureRedOnBlackInTheBayerPattern)

@@ -2,6 +2,7 @@
 #include "drivers/registry.h"
 #include "drivers/replay/brd_file.h"
 #include "runtime/base/error.h"
+#include "tests/common/shared_data.h"
 #include "tests/unit/drivers/recordings.h"
 #include <gtest/gtest.h>
 
@@ -160,9 +161,10 @@ TEST(Replay, SimulatedCamerasFollowTheReference)
 
 TEST(Replay, RealStereoImagesAndImu)
 {
-	if (sharedData().empty()) GTEST_SKIP() << "no shared data: set ARIFT_SHARED or put `shared` beside the checkout";
+	const auto recorded = sharedData("micro_euroc");
+	if (!recorded) GTEST_SKIP() << noSharedData;
 	const TemporaryFolder folder;
-	Playing playing(replayConfiguration(folder, sharedData() / "micro_euroc"));
+	Playing playing(replayConfiguration(folder, *recorded));
 	const auto tracker = playing.driver->openTracker();
 	const auto camera = playing.driver->openCamera(1, makeHostFrameBuffer);
 	CameraFrame frame;
@@ -188,8 +190,9 @@ TEST(Replay, RealStereoImagesAndImu)
 
 TEST(Replay, RealHeadMotionWithItsImu)
 {
-	if (sharedData().empty()) GTEST_SKIP() << "no shared data: set ARIFT_SHARED or put `shared` beside the checkout";
-	const auto recording = replay::readBrd(sharedData() / "vi" / "tumvi_room1.brd");
+	const auto recorded = sharedData("vi/tumvi_room1.brd");
+	if (!recorded) GTEST_SKIP() << noSharedData;
+	const auto recording = replay::readBrd(*recorded);
 	EXPECT_EQ(recording.records.size(), 28122u);
 	const glm::dquat imuInHead = replay::imuInHead(recording);
 	const Trajectory trajectory = replay::headTrajectory(recording, imuInHead);

@@ -32,13 +32,6 @@ CameraGeometry PlainLens::geometry(const XrPosef &cameraInHead) const
 	return geometry;
 }
 
-std::filesystem::path sharedData()
-{
-	const char *variable = std::getenv("ARIFT_SHARED");
-	const auto path = variable ? std::filesystem::path(variable) : std::filesystem::path(ARIFT_SOURCE_DIR) / "../shared";
-	return std::filesystem::exists(path / "data") ? path / "data" : std::filesystem::path();
-}
-
 TemporaryFolder::TemporaryFolder()
 {
 	std::string name = (std::filesystem::temp_directory_path() / "arift-drivers-XXXXXX").string();

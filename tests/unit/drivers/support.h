@@ -1,4 +1,4 @@
-// What the driver tests share: simple lenses, where the test data lies, temporary files.
+// What the driver tests share: simple lenses, temporary files.
 #pragma once
 #include "runtime/base/pose.h"
 #include "runtime/device/driver.h"
@@ -19,9 +19,6 @@ struct PlainLens {
 	glm::dvec2 project(const glm::dvec3 &cvDirection) const;
 	CameraGeometry geometry(const XrPosef &cameraInHead = identityPose) const;
 };
-
-/// $ARIFT_SHARED, or `shared` beside the checkout; empty where there is none.
-std::filesystem::path sharedData();
 
 /// A folder of the test's own, removed at the end.
 class TemporaryFolder

@@ -1,6 +1,7 @@
 // A Rig out of a recording's own calibration, upright whatever the recording's body frame was.
 #include "runtime/base/error.h"
 #include "runtime/optics/euroc_rig.h"
+#include "tests/common/shared_data.h"
 #include "tests/unit/optics/scratch.h"
 #include <glm/geometric.hpp>
 
@@ -134,8 +135,8 @@ TEST(EurocRig, MissingFilesAreNamed)
 
 TEST(EurocRig, RealRecording)
 {
-	const auto folder = tests::sharedData("micro_euroc");
-	if (!folder) GTEST_SKIP() << "no real EuRoC recording (ARIFT_SHARED)";
+	const auto folder = test::sharedData("micro_euroc");
+	if (!folder) GTEST_SKIP() << test::noSharedData;
 	const Rig rig = rigFromEuroc(*folder);
 	const XrPosef left = rig.cameras[0].cameraInHead, right = rig.cameras[1].cameraInHead;
 	EXPECT_NEAR(length(right.position - left.position), 0.110, 0.001);

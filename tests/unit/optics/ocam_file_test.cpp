@@ -1,6 +1,7 @@
 // OCamCalib's calib_results.txt: read as it is written, and refused with file and line where it is damaged.
 #include "runtime/base/error.h"
 #include "runtime/optics/camera_model.h"
+#include "tests/common/shared_data.h"
 #include "tests/unit/optics/scratch.h"
 #include <glm/geometric.hpp>
 
@@ -134,8 +135,8 @@ TEST(OCamFile, MissingFileIsNamed)
 
 TEST(OCamFile, EveryRealFileIsReadAndGoesThereAndBack)
 {
-	const auto folder = tests::sharedData("ocam");
-	if (!folder) GTEST_SKIP() << "no folder of real OCamCalib files (ARIFT_SHARED)";
+	const auto folder = test::sharedData("ocam");
+	if (!folder) GTEST_SKIP() << test::noSharedData;
 	int files = 0;
 	for (const auto &entry : std::filesystem::directory_iterator(*folder)) {
 		if (entry.path().extension() != ".txt") continue;

@@ -1,10 +1,9 @@
-// Files that a test writes, and the folder of real recordings and calibrations where a machine has it.
+// Files that a test writes.
 #pragma once
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <unistd.h>
@@ -43,15 +42,6 @@ inline std::string readAll(const std::filesystem::path &file)
 	std::ostringstream text;
 	text << std::ifstream(file, std::ios::binary).rdbuf();
 	return text.str();
-}
-
-/// `part` of the data folder named by ARIFT_SHARED, or lying beside the checkout.
-inline std::optional<std::filesystem::path> sharedData(const std::string &part)
-{
-	const char *named = std::getenv("ARIFT_SHARED");
-	const std::filesystem::path root = named ? std::filesystem::path(named) : std::filesystem::path(ARIFT_SOURCE_DIR) / ".." / "shared";
-	const std::filesystem::path folder = root / "data" / part;
-	return std::filesystem::exists(folder) ? std::optional(folder) : std::nullopt;
 }
 
 /// `text` with its first `from` replaced, and the line on which that stood.

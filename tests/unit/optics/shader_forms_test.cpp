@@ -1,5 +1,6 @@
 // What the shaders evaluate, in their single precision and by the headers' formulae, against the models in double precision.
 #include "runtime/optics/rig.h"
+#include "tests/common/shared_data.h"
 #include "tests/unit/optics/scratch.h"
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -102,8 +103,8 @@ TEST(ShaderCamera, ATighterToleranceTakesMoreTerms)
 
 TEST(ShaderCamera, MatchesEveryRealOCamFile)
 {
-	const auto folder = tests::sharedData("ocam");
-	if (!folder) GTEST_SKIP() << "no folder of real OCamCalib files (ARIFT_SHARED)";
+	const auto folder = test::sharedData("ocam");
+	if (!folder) GTEST_SKIP() << test::noSharedData;
 	int files = 0;
 	for (const auto &entry : std::filesystem::directory_iterator(*folder)) {
 		if (entry.path().extension() != ".txt") continue;

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -72,14 +71,6 @@ double slopePerMinute(const std::vector<double> &times, const std::vector<double
 }
 
 } // namespace
-
-std::optional<std::filesystem::path> sharedData()
-{
-	const char *named = std::getenv("ARIFT_SHARED");
-	const std::filesystem::path folder = named ? std::filesystem::path(named) : std::filesystem::path(ARIFT_SOURCE_DIR) / "../shared";
-	if (!std::filesystem::is_directory(folder / "data")) return std::nullopt;
-	return folder / "data";
-}
 
 std::vector<Recording> readRecordings(const std::filesystem::path &folder)
 {

@@ -21,9 +21,6 @@ struct Recording {
 	std::vector<RecordedSample> samples;
 };
 
-/// $ARIFT_SHARED/data or ../shared/data beside the checkout; nothing where there is neither.
-std::optional<std::filesystem::path> sharedData();
-
 /// All of a folder, by name: .brc (BROAD) and .brd (TUM-VI), as the data's README describes them. Throws std::runtime_error on a damaged
 /// file.
 std::vector<Recording> readRecordings(const std::filesystem::path &folder);

@@ -3,6 +3,7 @@
 #include "runtime/tracking/magnetic_heading.h"
 #include "runtime/tracking/orientation_filter.h"
 #include "runtime/tracking/rate_fit.h"
+#include "tests/common/shared_data.h"
 #include "tests/unit/tracking/recordings.h"
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -18,7 +19,7 @@ class RecordingsTest : public testing::Test
 protected:
 	void SetUp() override
 	{
-		if (!sharedData()) GTEST_SKIP() << "no recordings: neither $ARIFT_SHARED nor ../shared beside the checkout has a folder data";
+		if (!sharedData("broad") || !sharedData("vi")) GTEST_SKIP() << noSharedData;
 	}
 };
 
@@ -77,20 +78,20 @@ std::vector<double> predictionErrors(const Recording &recording, const std::vect
 
 TEST_F(RecordingsTest, BroadIsFollowedAtLeastAsWellAsByVqf)
 {
-	const std::vector<Recording> recordings = readRecordings(*sharedData() / "broad");
+	const std::vector<Recording> recordings = readRecordings(*sharedData("broad"));
 	ASSERT_EQ(recordings.size(), 8u);
 	double total = 0, inclination = 0, drift = 0;
 	for (const Recording &recording : recordings) {
 		const Estimates estimates = estimate(recording);
 		const OrientationError sixD = orientationError(recording, estimates.withoutField),
 							   nineD = orientationError(recording, estimates.withField);
-		std::printf("%-38s 9D total %.2f heading %.2f inclination %.2f deg, 6D drift %+.2f deg/min\n", recording.name.c_str(), nineD.total,
-					nineD.heading, nineD.inclination, sixD.driftPerMinute);
+		std::printf("[ FIGURE   ] %-38s 9D total %.2f heading %.2f inclination %.2f deg, 6D drift %+.2f deg/min\n", recording.name.c_str(),
+					nineD.total, nineD.heading, nineD.inclination, sixD.driftPerMinute);
 		total += nineD.total / 8;
 		inclination += sixD.inclination / 8;
 		drift += std::abs(sixD.driftPerMinute) / 8;
 	}
-	std::printf("BROAD, 8 trials: 9D total %.3f, inclination %.3f deg, 6D drift %.2f deg/min\n", total, inclination, drift);
+	std::printf("[ FIGURE   ] BROAD, 8 trials: 9D total %.3f, inclination %.3f deg, 6D drift %.2f deg/min\n", total, inclination, drift);
 	EXPECT_LE(inclination, 0.80);
 	EXPECT_LE(total, 2.45);
 	EXPECT_LE(drift, 3.0);
@@ -98,16 +99,17 @@ TEST_F(RecordingsTest, BroadIsFollowedAtLeastAsWellAsByVqf)
 
 TEST_F(RecordingsTest, HeadLikeMotionIsFollowedBetterThanByVqf)
 {
-	const std::vector<Recording> recordings = readRecordings(*sharedData() / "vi");
+	const std::vector<Recording> recordings = readRecordings(*sharedData("vi"));
 	ASSERT_EQ(recordings.size(), 3u);
 	double inclination = 0, drift = 0;
 	for (const Recording &recording : recordings) {
 		const OrientationError error = orientationError(recording, estimate(recording).withoutField);
-		std::printf("%-14s inclination %.2f deg, drift %+.2f deg/min\n", recording.name.c_str(), error.inclination, error.driftPerMinute);
+		std::printf("[ FIGURE   ] %-14s inclination %.2f deg, drift %+.2f deg/min\n", recording.name.c_str(), error.inclination,
+					error.driftPerMinute);
 		inclination += error.inclination / 3;
 		drift += std::abs(error.driftPerMinute) / 3;
 	}
-	std::printf("TUM-VI, 3 rooms: inclination %.3f deg, drift %.2f deg/min\n", inclination, drift);
+	std::printf("[ FIGURE   ] TUM-VI, 3 rooms: inclination %.3f deg, drift %.2f deg/min\n", inclination, drift);
 	EXPECT_LE(inclination, 0.75);
 	EXPECT_LE(drift, 1.25);
 }
@@ -115,11 +117,11 @@ TEST_F(RecordingsTest, HeadLikeMotionIsFollowedBetterThanByVqf)
 TEST_F(RecordingsTest, AnUncalibratedGyroscopeIsSurvivedWithoutRest)
 {
 	double inclination = 0;
-	for (Recording recording : readRecordings(*sharedData() / "vi")) { // the zero-rate offset of a real DK1 without its calibration
+	for (Recording recording : readRecordings(*sharedData("vi"))) { // the zero-rate offset of a real DK1 without its calibration
 		for (RecordedSample &sample : recording.samples) sample.rate += glm::dvec3(-0.0412516, 0.0256156, 0.0005428);
 		inclination += orientationError(recording, estimate(recording).withoutField).inclination / 3;
 	}
-	std::printf("TUM-VI with a bias of 2.8 deg/s: inclination %.2f deg\n", inclination);
+	std::printf("[ FIGURE   ] TUM-VI with a bias of 2.8 deg/s: inclination %.2f deg\n", inclination);
 	EXPECT_LE(inclination, 3.0);
 }
 
@@ -127,11 +129,11 @@ TEST_F(RecordingsTest, PredictionOfHeadLikeMotion)
 {
 	const std::vector<XrDuration> horizons{20 * millisecond, 33 * millisecond, 50 * millisecond};
 	std::vector<double> mean(horizons.size());
-	for (const Recording &recording : readRecordings(*sharedData() / "vi")) {
+	for (const Recording &recording : readRecordings(*sharedData("vi"))) {
 		const std::vector<double> errors = predictionErrors(recording, horizons);
 		for (size_t i = 0; i < horizons.size(); ++i) mean[i] += errors[i] / 3;
 	}
-	std::printf("TUM-VI prediction: %.3f deg at 20 ms, %.3f at 33 ms, %.3f at 50 ms (RMS)\n", mean[0], mean[1], mean[2]);
+	std::printf("[ FIGURE   ] TUM-VI prediction: %.3f deg at 20 ms, %.3f at 33 ms, %.3f at 50 ms (RMS)\n", mean[0], mean[1], mean[2]);
 	EXPECT_LE(mean[0], 0.038);
 	EXPECT_LE(mean[1], 0.11);
 	EXPECT_LE(mean[2], 0.26);
