@@ -17,8 +17,11 @@ struct Latched {
 	double passthroughDistance = 2; ///< metres
 };
 
-/// `displayTime` is the middle line's. Each eye gets its own camera's image, or the other's when its own is lost. The views stand where the
-/// shared rule puts them (motion/view_poses.h), for the image that is really shown.
+/// An image older than this when it is shown is no image: a frozen world must not look alive.
+constexpr XrDuration oldestImage = 1 * second;
+
+/// `displayTime` is the middle line's. Each eye gets its own camera's image, or the other's when its own is lost or too old. The views
+/// stand where the shared rule puts them (motion/view_poses.h), for the image that is really shown.
 PanelInputs assemble(const Rig &rig, const ipc::ViewTable &views, const PoseHistory &poses, XrTime displayTime, Latched latched);
 
 } // namespace arift

@@ -1,4 +1,5 @@
 #include "runtime/compositor/compositor_loop.h"
+#include "runtime/base/log.h"
 #include <algorithm>
 #include <ctime>
 
@@ -30,8 +31,12 @@ void Compositor::Loop::changeImages(std::vector<ImageChange> changes)
 {
 	for (ImageChange &change : changes) {
 		if (change.image != VK_NULL_HANDLE) {
-			panel_->addImage(change.key, change.image, change.spec);
-			images_[change.key] = std::move(change.owner);
+			try {
+				panel_->addImage(change.key, change.image, change.spec);
+				images_[change.key] = std::move(change.owner);
+			} catch (const std::exception &problem) {
+				log::error("an application's image cannot be shown: {}", problem.what()); // its layers are left out
+			}
 		} else if (images_.contains(change.key)) {
 			panel_->removeImage(change.key);
 			images_.erase(change.key);
@@ -99,8 +104,13 @@ void Compositor::Loop::record(const PanelInputs &inputs, const MotionSample &new
 
 void Compositor::Loop::hand(std::vector<Wanted> wanted, const PanelInputs &inputs, XrTime display)
 {
-	for (Wanted &each : wanted)
-		each.promise.set_value({each.kind == ipc::PictureKind::panel ? panel_->readPanel() : panel_->renderEyes(inputs), display});
+	for (Wanted &each : wanted) {
+		try {
+			each.promise.set_value({each.kind == ipc::PictureKind::panel ? panel_->readPanel() : panel_->renderEyes(inputs), display});
+		} catch (const std::exception &) {
+			each.promise.set_exception(std::current_exception());
+		}
+	}
 }
 
 bool Compositor::Loop::frame(const Pacer::Refresh &refresh)
@@ -126,8 +136,9 @@ bool Compositor::Loop::frame(const Pacer::Refresh &refresh)
 	latched.passthroughDistance = passthroughDistance;
 	MotionSample newest;
 	surroundings_.poses.newest(newest);
-	const auto views = surroundings_.page.views.read().value_or(ipc::ViewTable{});
-	const PanelInputs inputs = assemble(surroundings_.rig, views, surroundings_.poses, refresh.display, std::move(latched));
+	if (const auto views = surroundings_.page.views.read()) views_ = *views;
+	PanelInputs inputs = assemble(surroundings_.rig, views_, surroundings_.poses, refresh.display, std::move(latched));
+	fade_.apply(inputs);
 	wake(sources, refresh); // they draw for the refresh after this one while this one is drawn
 
 	panel_->render(inputs);

@@ -1,5 +1,6 @@
 // The compositor's inside: what its thread owns, and what others hand to it under a lock.
 #pragma once
+#include "runtime/compositor/camera_fade.h"
 #include "runtime/compositor/compositor.h"
 #include <future>
 #include <map>
@@ -57,6 +58,8 @@ private:
 	Pacer pacer_;
 	std::unique_ptr<Panel> panel_;
 	std::map<uint64_t, std::shared_ptr<const void>> images_;
+	ipc::ViewTable views_{};
+	CameraFade fade_;
 	XrTime lastDisplay_ = 0;
 	bool stepped_;
 };

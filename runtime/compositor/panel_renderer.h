@@ -35,7 +35,8 @@ public:
 	void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec);
 	void removeImage(uint64_t key);
 
-	/// Draws and waits until the GPU is done (bounded: throws std::runtime_error after a second). The result stays in image().
+	/// Draws and waits until the GPU is done (bounded by gpu::Device::Handles::patience: throws std::runtime_error). The result stays in
+	/// image().
 	void render(const PanelInputs &inputs);
 
 	/// GPU and CPU cost of the last render, seconds.

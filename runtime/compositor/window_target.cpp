@@ -123,7 +123,7 @@ public:
 	Result present(VkImage image, VkExtent2D extent, const Pacer::Refresh &refresh) override
 	{
 		const bool open = window_.stillOpen();
-		if (open && (*swapchain_ || makeSwapchain())) show(image, extent);
+		if (open) show(image, extent);
 		const XrDuration late = clock_.now() - refresh.vblank;
 		const XrDuration refreshesLate = late <= 0 ? 0 : (late + period_ - 1) / period_;
 		return {open ? Presented::shown : Presented::closed, refresh.display + refreshesLate * period_};
@@ -161,9 +161,11 @@ private:
 	void show(VkImage image, VkExtent2D extent)
 	{
 		try {
+			if (!*swapchain_ && !makeSwapchain()) return;
 			const auto [result, index] = swapchain_.acquireNextImage(acquireLimitNs, {}, *acquired_);
 			if (result == vk::Result::eTimeout || result == vk::Result::eNotReady) return;
-			(void)gpu_.device.waitForFences(*acquired_, true, uint64_t(gpu_.patience.count()));
+			if (gpu_.device.waitForFences(*acquired_, true, uint64_t(gpu_.patience.count())) != vk::Result::eSuccess)
+				throw std::runtime_error("the window's image is not handed over");
 			gpu_.device.resetFences(*acquired_);
 			record(image, extent, images_[index]);
 			gpu_.submitAndWait(commands_.front(), copied_);

@@ -1,5 +1,6 @@
 #include "runtime/gpu/device.h"
 #include "runtime/gpu/handles.h"
+#include "runtime/gpu/swapchain_formats.h"
 
 namespace arift::gpu
 {
@@ -11,5 +12,11 @@ Device::~Device() = default;
 const DeviceIdentity &Device::identity() const { return handles_->identity; }
 
 uint64_t Device::validationMessages() const { return handles_->validationMessages; }
+
+std::vector<int64_t> swapchainFormats(Device &device)
+{
+	const vk::raii::PhysicalDevice &physical = device.handles().physical;
+	return swapchainFormats(*physical, physical.getDispatcher()->vkGetPhysicalDeviceImageFormatProperties2);
+}
 
 } // namespace arift::gpu

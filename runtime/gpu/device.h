@@ -44,6 +44,8 @@ public:
 	SharedImage(Device &device, const ImageSpec &spec);
 	~SharedImage();
 	SharedImage(SharedImage &&) noexcept;
+	/// Bytes that such an image would take; nothing is allocated.
+	static uint64_t memorySizeOf(Device &device, const ImageSpec &spec);
 	VkImage image() const;
 	const ImageSpec &spec() const;
 	uint64_t memorySize() const;

@@ -155,10 +155,13 @@ void Device::Handles::submitAndWait(const vk::raii::CommandBuffer &commands, con
 {
 	queue.lock()->submit(vk::SubmitInfo{{}, {}, *commands}, *fence);
 	if (device.waitForFences(*fence, true, uint64_t(patience.count())) != vk::Result::eSuccess) {
-		// What unwinding destroys must not be in use any more. The kernel resets a GPU that hangs, which ends this wait.
 		log::error("the GPU did not finish within {} ms", patience / 1ms);
-		const auto held = queue.lock();
-		held->waitIdle();
+		// What unwinding destroys must not be in use any more. The kernel resets a GPU that hangs; one that still works after that can
+		// only be left by ending the process, whose parent starts it anew.
+		if (device.waitForFences(*fence, true, uint64_t((10 * patience).count())) != vk::Result::eSuccess) {
+			log::error("the GPU hangs: this process ends");
+			std::_Exit(EXIT_FAILURE);
+		}
 		throw std::runtime_error(fmt::format("the GPU did not finish within {} ms", patience / 1ms));
 	}
 	device.resetFences(*fence);
@@ -203,15 +206,6 @@ Buffer::Buffer(const Device::Handles &gpu, vk::DeviceSize size, vk::BufferUsageF
 {
 	buffer.bindMemory(*memory, 0);
 	bytes = {static_cast<std::byte *>(memory.mapMemory(0, VK_WHOLE_SIZE)), size_t(size)};
-}
-
-vk::ImageAspectFlags aspectOf(VkFormat format)
-{
-	using Aspect = vk::ImageAspectFlagBits;
-	if (!isDepth(format)) return Aspect::eColor;
-	if (format == VK_FORMAT_S8_UINT) return Aspect::eStencil;
-	const bool stencil = format >= VK_FORMAT_D16_UNORM_S8_UINT;
-	return stencil ? Aspect::eDepth | Aspect::eStencil : vk::ImageAspectFlags(Aspect::eDepth);
 }
 
 } // namespace arift::gpu

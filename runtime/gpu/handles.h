@@ -52,6 +52,4 @@ struct Buffer {
 	std::span<std::byte> bytes;
 };
 
-vk::ImageAspectFlags aspectOf(VkFormat format);
-
 } // namespace arift::gpu

@@ -5,6 +5,14 @@ namespace arift::gpu
 
 bool isDepth(VkFormat format) { return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT; }
 
+VkImageAspectFlags aspectOf(VkFormat format)
+{
+	if (!isDepth(format)) return VK_IMAGE_ASPECT_COLOR_BIT;
+	if (format == VK_FORMAT_S8_UINT) return VK_IMAGE_ASPECT_STENCIL_BIT;
+	const bool hasStencil = format >= VK_FORMAT_D16_UNORM_S8_UINT;
+	return hasStencil ? VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT : VK_IMAGE_ASPECT_DEPTH_BIT;
+}
+
 VkImageLayout boundaryLayout(VkFormat format)
 {
 	return isDepth(format) ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;

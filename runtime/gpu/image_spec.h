@@ -27,5 +27,6 @@ constexpr VkExternalMemoryHandleTypeFlagBits sharedHandleType = VK_EXTERNAL_MEMO
 /// Layout".
 VkImageLayout boundaryLayout(VkFormat format);
 bool isDepth(VkFormat format);
+VkImageAspectFlags aspectOf(VkFormat format);
 
 } // namespace arift::gpu

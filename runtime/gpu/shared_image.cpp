@@ -49,7 +49,7 @@ void clearAndRelease(const vk::raii::CommandBuffer &commands, vk::Image image, V
 	using Access = vk::AccessFlagBits;
 	using Stage = vk::PipelineStageFlagBits;
 	using Layout = vk::ImageLayout;
-	const vk::ImageSubresourceRange all{aspectOf(format), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+	const vk::ImageSubresourceRange all{vk::ImageAspectFlags(aspectOf(format)), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
 	const vk::ImageMemoryBarrier before{{},
 										Access::eTransferWrite,
 										Layout::eUndefined,
@@ -96,6 +96,11 @@ struct SharedImage::Implementation {
 	uint32_t type;
 	vk::raii::DeviceMemory memory;
 };
+
+uint64_t SharedImage::memorySizeOf(Device &device, const ImageSpec &spec)
+{
+	return makeImage(device.handles(), spec).getMemoryRequirements().size;
+}
 
 SharedImage::SharedImage(Device &device, const ImageSpec &spec) : implementation_(std::make_unique<Implementation>(device.handles(), spec))
 {

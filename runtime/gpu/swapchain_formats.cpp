@@ -1,5 +1,6 @@
-#include "runtime/gpu/device.h"
-#include "runtime/gpu/handles.h"
+#include "runtime/gpu/swapchain_formats.h"
+#include "runtime/gpu/image_spec.h"
+#include <array>
 
 namespace arift::gpu
 {
@@ -20,30 +21,34 @@ constexpr std::array candidates{VK_FORMAT_R8G8B8A8_SRGB,
 								VK_FORMAT_D32_SFLOAT_S8_UINT,
 								VK_FORMAT_D16_UNORM};
 
-bool canShare(const Device::Handles &gpu, VkFormat format)
+bool canShare(VkPhysicalDevice device, PFN_vkGetPhysicalDeviceImageFormatProperties2 query, VkFormat format)
 {
-	using Usage = vk::ImageUsageFlagBits;
-	const auto attachment = isDepth(format) ? Usage::eDepthStencilAttachment : Usage::eColorAttachment;
-	const auto usage = attachment | Usage::eSampled | Usage::eTransferSrc | Usage::eTransferDst;
-	const vk::PhysicalDeviceExternalImageFormatInfo shared{vk::ExternalMemoryHandleTypeFlagBits::eOpaqueFd};
-	const vk::PhysicalDeviceImageFormatInfo2 info{vk::Format(format), vk::ImageType::e2D, vk::ImageTiling::eOptimal, usage, {}, &shared};
-	try {
-		const auto found = gpu.physical.getImageFormatProperties2<vk::ImageFormatProperties2, vk::ExternalImageFormatProperties>(info);
-		const auto features = found.get<vk::ExternalImageFormatProperties>().externalMemoryProperties.externalMemoryFeatures;
-		using Feature = vk::ExternalMemoryFeatureFlagBits;
-		return bool(features & Feature::eExportable) && bool(features & Feature::eImportable);
-	} catch (const vk::FormatNotSupportedError &) {
-		return false;
-	}
+	const VkPhysicalDeviceExternalImageFormatInfo shared{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_IMAGE_FORMAT_INFO, nullptr,
+														 sharedHandleType};
+	const VkImageUsageFlags attachment =
+		isDepth(format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+	const VkPhysicalDeviceImageFormatInfo2 info{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_FORMAT_INFO_2,
+												.pNext = &shared,
+												.format = format,
+												.type = VK_IMAGE_TYPE_2D,
+												.tiling = VK_IMAGE_TILING_OPTIMAL,
+												.usage = attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+														 VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+												.flags = 0};
+	VkExternalImageFormatProperties external{VK_STRUCTURE_TYPE_EXTERNAL_IMAGE_FORMAT_PROPERTIES, nullptr, {}};
+	VkImageFormatProperties2 found{VK_STRUCTURE_TYPE_IMAGE_FORMAT_PROPERTIES_2, &external, {}};
+	if (query(device, &info, &found) != VK_SUCCESS) return false;
+	constexpr VkExternalMemoryFeatureFlags needed = VK_EXTERNAL_MEMORY_FEATURE_EXPORTABLE_BIT | VK_EXTERNAL_MEMORY_FEATURE_IMPORTABLE_BIT;
+	return (external.externalMemoryProperties.externalMemoryFeatures & needed) == needed;
 }
 
 } // namespace
 
-std::vector<int64_t> swapchainFormats(Device &device)
+std::vector<int64_t> swapchainFormats(VkPhysicalDevice device, PFN_vkGetPhysicalDeviceImageFormatProperties2 query)
 {
 	std::vector<int64_t> formats;
 	for (const VkFormat format : candidates)
-		if (canShare(device.handles(), format)) formats.push_back(format);
+		if (canShare(device, query, format)) formats.push_back(format);
 	return formats;
 }
 

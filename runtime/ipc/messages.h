@@ -11,10 +11,13 @@ namespace arift::ipc
 {
 
 constexpr uint32_t magic = 0x54465241; // "ARFT"
-constexpr uint32_t protocol = 1;       // raised with every change of this file or of pages.h
-constexpr uint32_t maxFds = 16;        // per message
-constexpr uint32_t maxImages = 8;      // per swapchain
-constexpr uint32_t maxLayers = 16;     // per submission
+constexpr uint32_t protocol = 2;       // raised with every change of this file or of pages.h
+/// Real time in which the service has opened its devices and answers Hello and CreateSession: a second or two, much more on a machine that
+/// is busy otherwise. Clients wait a little longer than this, so that they hear its reason.
+constexpr XrDuration openingLimit = 60 * second;
+constexpr uint32_t maxFds = 16;    // per message
+constexpr uint32_t maxImages = 8;  // per swapchain
+constexpr uint32_t maxLayers = 16; // per submission
 
 enum class MessageType : uint32_t {
 	// application or monitor -> service -> back
@@ -44,6 +47,8 @@ enum class MessageType : uint32_t {
 	shutDown,
 };
 
+constexpr bool isForMonitors(MessageType type) { return type >= MessageType::getStatus; }
+
 struct Header {
 	MessageType type;
 	uint32_t sequence = 0;
@@ -51,6 +56,7 @@ struct Header {
 
 enum class Role : uint32_t { application, monitor };
 
+/// What comes before `role`, and Failed, stay as they are in every protocol: another protocol is refused with a sentence.
 struct Hello {
 	static constexpr MessageType type = MessageType::hello;
 	Header header{type};

@@ -12,8 +12,8 @@
 namespace arift::ipc
 {
 
-/// One writer, many readers of a small plain value, by a sequence word that is odd while the value is written.
-/// A reader gives up after a few tries: a writer killed half-way leaves the word odd for ever.
+/// One writer, many readers of a small plain value. Two slots in turn, each with a sequence word that is odd while the slot is written:
+/// while one is written the other can be read, also when the writer sleeps half-way or has been killed.
 template <typename T> class Published
 {
 	static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 8 == 0);
@@ -23,20 +23,26 @@ public:
 	{
 		std::array<uint64_t, sizeof(T) / 8> words;
 		std::memcpy(words.data(), &value, sizeof(T));
-		const uint32_t sequence = sequence_.load(std::memory_order_relaxed);
-		sequence_.store(sequence + 1, std::memory_order_relaxed);
+		const uint32_t next = version_.load(std::memory_order_relaxed) + 1;
+		Slot &slot = slots_[next % 2];
+		slot.sequence.store(2 * next - 1, std::memory_order_relaxed);
 		std::atomic_thread_fence(std::memory_order_release);
-		for (size_t i = 0; i < words.size(); ++i) words_[i].store(words[i], std::memory_order_relaxed);
-		sequence_.store(sequence + 2, std::memory_order_release);
+		for (size_t i = 0; i < words.size(); ++i) slot.words[i].store(words[i], std::memory_order_relaxed);
+		slot.sequence.store(2 * next, std::memory_order_release);
+		version_.store(next, std::memory_order_release);
 	}
+	/// Nothing only when the page holds what no writer leaves there, or when it was overtaken twice by the writer in every one of many
+	/// tries.
 	std::optional<T> read() const
 	{
 		std::array<uint64_t, sizeof(T) / 8> words;
 		for (int attempt = 0; attempt < 64; ++attempt) {
-			const uint32_t before = sequence_.load(std::memory_order_acquire);
-			for (size_t i = 0; i < words.size(); ++i) words[i] = words_[i].load(std::memory_order_relaxed);
+			const uint32_t newest = version_.load(std::memory_order_acquire);
+			const Slot &slot = slots_[newest % 2];
+			const uint32_t before = slot.sequence.load(std::memory_order_acquire);
+			for (size_t i = 0; i < words.size(); ++i) words[i] = slot.words[i].load(std::memory_order_relaxed);
 			std::atomic_thread_fence(std::memory_order_acquire);
-			if (before == sequence_.load(std::memory_order_relaxed) && !(before & 1)) {
+			if (before == 2 * newest && before == slot.sequence.load(std::memory_order_relaxed)) {
 				T value;
 				std::memcpy(static_cast<void *>(&value), words.data(), sizeof(T));
 				return value;
@@ -45,12 +51,17 @@ public:
 		return std::nullopt;
 	}
 	/// Changes with every write: a cheap way to see that there is news.
-	uint32_t version() const { return sequence_.load(std::memory_order_acquire); }
+	uint32_t version() const { return version_.load(std::memory_order_acquire); }
 
 private:
-	std::atomic<uint32_t> sequence_{0};
+	struct Slot {
+		std::atomic<uint32_t> sequence{0};
+		uint32_t reserved = 0;
+		std::array<std::atomic<uint64_t>, sizeof(T) / 8> words{};
+	};
+	std::atomic<uint32_t> version_{0};
 	uint32_t reserved_ = 0;
-	std::array<std::atomic<uint64_t>, sizeof(T) / 8> words_{};
+	std::array<Slot, 2> slots_{};
 };
 
 /// When a camera's images are taken and when they are there: exposures at reference + k * period, usable `delay` later.

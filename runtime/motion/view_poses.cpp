@@ -19,10 +19,10 @@ XrPosef headInOrigin(const ipc::ViewTable &views, const HeadMotion &head)
 	return NeckModel{views.pivotInHead}.head(head.at.headInOrigin);
 }
 
-XrPosef viewInOrigin(const ipc::ViewTable &views, uint32_t eye, const HeadMotion &headAtDisplay, const HeadMotion &headAtExposure)
+XrPosef viewInOrigin(const ipc::ViewTable &views, uint32_t eye, const XrPosef &headAtDisplay, const XrPosef &headAtExposure)
 {
-	const XrPosef eyeNow = headInOrigin(views, headAtDisplay) * views.eyeInHead[eye];
-	const XrVector3f cameraThen = headInOrigin(views, headAtExposure) * views.cameraInHead[eye].position;
+	const XrPosef eyeNow = headAtDisplay * views.eyeInHead[eye];
+	const XrVector3f cameraThen = headAtExposure * views.cameraInHead[eye].position;
 	return {eyeNow.orientation, eyeNow.position * (1 - views.viewOffset) + cameraThen * views.viewOffset};
 }
 

@@ -17,6 +17,7 @@ XrPosef headInOrigin(const ipc::ViewTable &views, const HeadMotion &head);
 /// The view of eye `eye` (0 left, 1 right), also the pose from which its camera image is seen: the orientation is the eye's at display
 /// time; the position lies between the eye's at display time (viewOffset 0) and the camera's at the exposure shown then (viewOffset 1). At
 /// 1 both hologram and camera image are seen from where the camera was, so the head's translation during the camera's latency does no harm.
-XrPosef viewInOrigin(const ipc::ViewTable &views, uint32_t eye, const HeadMotion &headAtDisplay, const HeadMotion &headAtExposure);
+/// The heads are headInOrigin()'s at those two times.
+XrPosef viewInOrigin(const ipc::ViewTable &views, uint32_t eye, const XrPosef &headAtDisplay, const XrPosef &headAtExposure);
 
 } // namespace arift

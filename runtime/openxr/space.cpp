@@ -190,15 +190,21 @@ XrResult locateViews(Session &session, const XrViewLocateInfo &info, XrViewState
 	const bool located = base && locator.head().found != Found::none;
 	const XrPosef toSpace = located ? inverse(base->pose) : identityPose;
 	const ipc::TimingTable timing = service.timing();
-	HeadMotion then = locator.head(); // at the exposure of the camera image that will be shown
+	const XrPosef head = headInOrigin(table, locator.head());
+	// At the exposure of the camera image that will be shown; both cameras' often is the same.
+	XrTime thenTime = info.displayTime;
+	XrPosef then = head;
 	const XrResult result = views.fill(2, [&](uint32_t eye, XrView &view) {
 		view.fov = table.fov[eye];
 		view.pose = identityPose;
 		if (!located) return;
 		const XrTime exposure = exposureShownAt(timing.cameras[eye], info.displayTime, timing.latchBeforeDisplay);
-		if (table.viewOffset > 0 && exposure != then.at.time) then = service.poses().at(exposure);
-		if (then.found == Found::none) then = locator.head();
-		view.pose = toSpace * viewInOrigin(table, eye, locator.head(), then);
+		if (table.viewOffset > 0 && exposure != thenTime) {
+			const HeadMotion atExposure = service.poses().at(exposure);
+			then = atExposure.found == Found::none ? head : headInOrigin(table, atExposure);
+			thenTime = exposure;
+		}
+		view.pose = toSpace * viewInOrigin(table, eye, head, then);
 	});
 	static_assert(XR_VIEW_STATE_ORIENTATION_VALID_BIT == oriented);
 	// Bit for bit the same as XrSpaceLocationFlags.

@@ -5,6 +5,6 @@ namespace arift
 {
 
 constexpr const char *version = ARIFT_VERSION;
-constexpr const char *buildId = "ARift " ARIFT_VERSION " " __DATE__ " " __TIME__;
+constexpr const char *buildId = "ARift " ARIFT_VERSION;
 
 } // namespace arift

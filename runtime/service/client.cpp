@@ -10,8 +10,6 @@ namespace arift
 namespace
 {
 
-constexpr XrDuration openingLimit = 60 * second; // a second or two, but much more on a machine that is busy otherwise
-
 std::atomic<uint32_t> nextSession{1};
 
 ipc::Header headerOf(const Request &request)
@@ -70,6 +68,7 @@ void Client::answer(const Request &request)
 {
 	const bool isHello = std::holds_alternative<ipc::Hello>(request);
 	if (isHello == greeted_) throw Malformed("{}", greeted_ ? "a second hello" : "a request before hello");
+	if (greeted_ && application_ == ipc::isForMonitors(headerOf(request).type)) throw Malformed("a request that is not for its role");
 	try {
 		std::visit([this](const auto &message) { answer(message); }, request);
 	} catch (const Refused &problem) {
@@ -94,7 +93,7 @@ void Client::answer(const ipc::Hello &message)
 		return;
 	}
 	application_ = message.role == ipc::Role::application;
-	const Opened opened = world_.await(Stage::identified, openingLimit);
+	const Opened opened = world_.await(Stage::identified, ipc::openingLimit);
 	if (application_) world_.applications.introduce(**page_);
 	const std::array fds{world_.system.fd(), world_.poses.fd(), page_->fd()};
 	reply(message.header, opened.welcome, std::span(fds).first(application_ ? 3 : 2));
@@ -103,7 +102,7 @@ void Client::answer(const ipc::Hello &message)
 void Client::answer(const ipc::CreateSession &message)
 {
 	if (session_) throw Refused(XR_ERROR_LIMIT_REACHED, "an instance may have one session at a time");
-	const Opened opened = world_.await(Stage::ready, openingLimit);
+	const Opened opened = world_.await(Stage::ready, ipc::openingLimit);
 	if (!message.headless &&
 		(message.deviceUuid != opened.device->identity().deviceUuid || message.driverUuid != opened.device->identity().driverUuid))
 		throw Refused(XR_ERROR_GRAPHICS_DEVICE_INVALID,

@@ -22,7 +22,6 @@ public:
 
 	/// Its thread has ended: the object may go.
 	bool finished() const { return finished_; }
-	bool isApplication() const { return application_; }
 	void describe(nlohmann::json &list);
 
 private:

@@ -11,13 +11,13 @@ namespace arift
 namespace
 {
 
-constexpr XrDuration openingLimit = 60 * second, pictureLimit = 10 * second;
+constexpr XrDuration pictureLimit = 10 * second;
 
 } // namespace
 
 void Client::answer(const ipc::GetStatus &message)
 {
-	const Opened opened = world_.await(Stage::ready, openingLimit);
+	const Opened opened = world_.await(Stage::ready, ipc::openingLimit);
 	nlohmann::json status = describeService(world_.config, opened.compositor->figures(message.resetFigures != 0));
 	opened.describeHeadset(status);
 	world_.describeClients(status["clients"] = nlohmann::json::array());
@@ -31,7 +31,7 @@ void Client::answer(const ipc::GetStatus &message)
 
 void Client::answer(const ipc::Screenshot &message)
 {
-	const Opened opened = world_.await(Stage::ready, openingLimit);
+	const Opened opened = world_.await(Stage::ready, ipc::openingLimit);
 	const auto picture = opened.compositor->picture(message.kind, pictureLimit);
 	if (!picture) throw Refused(XR_ERROR_RUNTIME_FAILURE, "no image was finished within ten seconds");
 	const UniqueFd memory = ipc::makeSealedCopy("arift-picture", picture->image.pixels);
@@ -45,7 +45,7 @@ void Client::answer(const ipc::Screenshot &message)
 
 void Client::answer(const ipc::SetSetting &message)
 {
-	const Opened opened = world_.await(Stage::ready, openingLimit);
+	const Opened opened = world_.await(Stage::ready, ipc::openingLimit);
 	if (message.setting == ipc::Setting::viewOffset) {
 		if (message.value < 0 || message.value > 1)
 			throw Refused(XR_ERROR_VALIDATION_FAILURE,
@@ -62,7 +62,7 @@ void Client::answer(const ipc::SetSetting &message)
 
 void Client::answer(const ipc::Recenter &message)
 {
-	world_.await(Stage::ready, openingLimit);
+	world_.await(Stage::ready, ipc::openingLimit);
 	const XrTime now = world_.clock.now();
 	const HeadMotion head = PoseHistory(*world_.poses).at(now);
 	XrPosef moved = identityPose;

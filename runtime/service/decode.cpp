@@ -1,5 +1,7 @@
 #include "runtime/service/decode.h"
 #include "runtime/base/pose.h"
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -20,10 +22,17 @@ void require(bool fulfilled, const char *what)
 	if (!fulfilled) throw Malformed("{}", what);
 }
 
-void check(const ipc::Hello &hello)
+/// Of another protocol only what tells so is taken: the rest may have any size and meaning.
+ipc::Hello decodeHello(const ipc::Received &received)
 {
+	constexpr size_t fixed = offsetof(ipc::Hello, role);
+	require(received.size >= fixed, "hello is too short");
+	ipc::Hello hello;
+	std::memcpy(static_cast<void *>(&hello), received.bytes.data(), fixed);
 	require(hello.magic == ipc::magic, "hello without the magic number");
+	if (hello.protocol == ipc::protocol) hello = exactly<ipc::Hello>(received);
 	require(hello.role <= ipc::Role::monitor, "hello of an unknown role");
+	return hello;
 }
 void check(const ipc::CreateSession &) {}
 void check(const ipc::DestroySession &) {}
@@ -35,7 +44,8 @@ void check(const ipc::CreateSwapchain &message)
 	require(spec.width >= 1 && spec.width <= Quota::extent && spec.height >= 1 && spec.height <= Quota::extent,
 			"swapchain: extent out of range");
 	require(spec.arrayLayers >= 1 && spec.arrayLayers <= 64, "swapchain: number of array layers out of range");
-	require(spec.mipLevels >= 1 && spec.mipLevels <= 14, "swapchain: number of mip levels out of range");
+	require(spec.mipLevels >= 1 && spec.mipLevels <= uint32_t(std::bit_width(std::max(spec.width, spec.height))),
+			"swapchain: number of mip levels out of range");
 	require(spec.samples >= 1 && spec.samples <= 16 && (spec.samples & (spec.samples - 1)) == 0, "swapchain: sample count out of range");
 }
 void check(const ipc::DestroySwapchain &) {}
@@ -131,7 +141,7 @@ Request decodeRequest(const ipc::Received &received)
 {
 	using enum ipc::MessageType;
 	switch (headerOf(received).type) {
-	case hello: return checked<ipc::Hello>(received);
+	case hello: return decodeHello(received);
 	case createSession: return checked<ipc::CreateSession>(received);
 	case destroySession: return checked<ipc::DestroySession>(received);
 	case sessionRunning: return checked<ipc::SessionRunning>(received);

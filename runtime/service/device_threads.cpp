@@ -98,6 +98,20 @@ bool Headset::CameraThread::reopen(BackOff &backOff, std::stop_token stop)
 	return true;
 }
 
+/// A driver that throws has lost its device.
+Outcome Headset::CameraThread::readOne(const std::stop_token &stop)
+{
+	try {
+		CameraFrame frame;
+		const Outcome outcome = camera_->read(frame, clock_.now() + readLimit, stop);
+		if (outcome == Outcome::ready) take(std::move(frame));
+		return outcome;
+	} catch (const std::exception &problem) {
+		log::error("{} camera: {}", eye_ == 0 ? "left" : "right", problem.what());
+		return Outcome::lost;
+	}
+}
+
 void Headset::CameraThread::run(std::stop_token stop)
 {
 	BackOff backOff;
@@ -106,13 +120,9 @@ void Headset::CameraThread::run(std::stop_token stop)
 			if (!reopen(backOff, stop)) return;
 			continue;
 		}
-		CameraFrame frame;
-		switch (camera_->read(frame, clock_.now() + readLimit, stop)) {
+		switch (readOne(stop)) {
 		case Outcome::timeout: break;
-		case Outcome::ready:
-			backOff.reset();
-			take(std::move(frame));
-			break;
+		case Outcome::ready: backOff.reset(); break;
 		case Outcome::lost:
 			log::warning("{} camera: lost", eye_ == 0 ? "left" : "right");
 			feed_.lose();
@@ -154,6 +164,16 @@ bool Headset::TrackerThread::reopen(BackOff &backOff, std::stop_token stop)
 	return true;
 }
 
+Outcome Headset::TrackerThread::readOne(ImuReport &report, const std::stop_token &stop)
+{
+	try {
+		return tracker_->read(report, clock_.now() + readLimit, stop);
+	} catch (const std::exception &problem) {
+		log::error("head tracker: {}", problem.what());
+		return Outcome::lost;
+	}
+}
+
 void Headset::TrackerThread::run(std::stop_token stop)
 {
 	BackOff backOff;
@@ -168,7 +188,7 @@ void Headset::TrackerThread::run(std::stop_token stop)
 		}
 		if (!motion) motion.emplace(tracker_->info(), rig_.imu, writer, trackingOf(rig_, tracker_->info()));
 		ImuReport report;
-		switch (tracker_->read(report, clock_.now() + readLimit, stop)) {
+		switch (readOne(report, stop)) {
 		case Outcome::timeout: break;
 		case Outcome::ready:
 			backOff.reset();

@@ -56,6 +56,7 @@ struct Headset::CameraThread {
 private:
 	void run(std::stop_token stop);
 	bool reopen(BackOff &backOff, std::stop_token stop);
+	Outcome readOne(const std::stop_token &stop);
 	void take(CameraFrame frame);
 
 	const RigCamera &calibration_;
@@ -78,6 +79,7 @@ struct Headset::TrackerThread {
 private:
 	void run(std::stop_token stop);
 	bool reopen(BackOff &backOff, std::stop_token stop);
+	Outcome readOne(ImuReport &report, const std::stop_token &stop);
 
 	const Rig &rig_;
 	DriverDoor &door_;

@@ -88,6 +88,15 @@ void Service::removeFinished()
 
 bool Service::mayLeave() { return options_.idleExit && realTime() - lastSeen_ > *options_.idleExit; }
 
+void Service::admit(ipc::Socket socket)
+{
+	try {
+		clients_.update([&](std::list<Client> &clients) { clients.emplace_back(std::move(socket), world_); });
+	} catch (const std::exception &problem) { // no descriptor, thread or memory is left: the world stays visible
+		log::error("a client is refused: {}", problem.what());
+	}
+}
+
 std::string Service::run()
 {
 	XrTime failedAt = 0;
@@ -96,7 +105,7 @@ std::string Service::run()
 		auto socket = listener_.accept(realTime() + heartbeatPeriod);
 		removeFinished();
 		if (socket && clients_.lock()->size() < maxClients) {
-			clients_.update([&](std::list<Client> &clients) { clients.emplace_back(std::move(*socket), world_); });
+			admit(std::move(*socket));
 			lastSeen_ = realTime();
 		}
 		const Opened opened = *world_.opened.lock();

@@ -33,6 +33,7 @@ public:
 private:
 	void open();
 	void removeFinished();
+	void admit(ipc::Socket socket);
 	bool mayLeave();
 
 	const Options options_;

@@ -166,7 +166,7 @@ void Session::serve(std::stop_token stop)
 				std::visit([this](const auto &message) { take(message); }, decodeFrameRequest(received, find_));
 			dropOldHold();
 		}
-	} catch (const Malformed &problem) {
+	} catch (const std::exception &problem) { // Malformed above all
 		onMalformed_(problem.what());
 	}
 	setRunning(false);

@@ -38,15 +38,13 @@ Swapchains::Made Swapchains::make(gpu::Device &device, const gpu::ImageSpec &spe
 	checkSpec(device, spec);
 	if (swapchains_.lock()->size() >= Quota::swapchains)
 		throw Refused(XR_ERROR_LIMIT_REACHED, fmt::format("a client may have {} swapchains", uint32_t(Quota::swapchains)));
-	const uint64_t before = bytes();
+	// Before any of it is taken.
+	if (bytes() + gpu::SharedImage::memorySizeOf(device, spec) * imageCount > Quota::imageBytes)
+		throw Refused(XR_ERROR_OUT_OF_MEMORY, fmt::format("a client's images may take {} MiB", Quota::imageBytes >> 20));
 	std::vector<std::shared_ptr<gpu::SharedImage>> images;
 	Made made;
-	for (uint32_t i = 0; i < imageCount; ++i) {
-		const auto &image = images.emplace_back(std::make_shared<gpu::SharedImage>(device, spec));
-		if (before + image->memorySize() * imageCount > Quota::imageBytes)
-			throw Refused(XR_ERROR_OUT_OF_MEMORY, fmt::format("a client's images may take {} MiB", Quota::imageBytes >> 20));
-		made.memory.push_back(image->exportMemory());
-	}
+	for (uint32_t i = 0; i < imageCount; ++i)
+		made.memory.push_back(images.emplace_back(std::make_shared<gpu::SharedImage>(device, spec))->exportMemory());
 	made.swapchain = nextSwapchain++;
 	made.memorySize = images.front()->memorySize();
 	made.memoryTypeIndex = images.front()->memoryTypeIndex();

@@ -122,24 +122,6 @@ TEST_F(HeadlessSession, FramesInOrder)
 	EXPECT_EQ(application.beginFrame(session), XR_FRAME_DISCARDED);
 }
 
-/// A second xrWaitFrame blocks until the first one's frame is begun, whoever calls it.
-TEST_F(HeadlessSession, WaitingInAnotherThreadBlocksUntilBegun)
-{
-	ASSERT_EQ(application.begin(session), XR_SUCCESS);
-	XrFrameState first, later;
-	ASSERT_EQ(application.wait(session, first), XR_SUCCESS);
-	std::atomic<bool> returned{false};
-	std::thread waiter([&] {
-		EXPECT_EQ(application.wait(session, later), XR_SUCCESS);
-		returned = true;
-	});
-	EXPECT_EQ(service.record().waits.size(), 1u);
-	EXPECT_FALSE(returned);
-	ASSERT_EQ(application.beginFrame(session), XR_SUCCESS);
-	waiter.join();
-	EXPECT_EQ(service.record().waits.size(), 2u);
-}
-
 TEST_F(HeadlessSession, ReferenceSpaces)
 {
 	const XrTime now = realTime();
@@ -229,8 +211,8 @@ TEST_F(HeadlessSession, ViewsFollowTheViewRule)
 	const auto locateViews = get<PFN_xrLocateViews>("xrLocateViews");
 	ASSERT_EQ(locateViews(session, &info, &state, 2, &count, views.data()), XR_SUCCESS);
 	EXPECT_TRUE(state.viewStateFlags & XR_VIEW_STATE_POSITION_VALID_BIT);
-	const auto headAt = [](XrTime time) {
-		return HeadMotion{Found::exact, {time, rotationAbout({0, 1, 0}, inSeconds(time % (3 * second))), {0, 1, 0}}};
+	const auto headAt = [&](XrTime time) {
+		return headInOrigin(table, {Found::exact, {time, rotationAbout({0, 1, 0}, inSeconds(time % (3 * second))), {0, 1, 0}}});
 	};
 	for (uint32_t eye = 0; eye < 2; ++eye) {
 		const XrTime exposure = exposureShownAt(timing.cameras[eye], display, timing.latchBeforeDisplay);
@@ -322,34 +304,6 @@ TEST_F(HeadlessSession, ActionsWithoutControllers)
 	XrSpace hand = XR_NULL_HANDLE;
 	ASSERT_EQ(get<PFN_xrCreateActionSpace>("xrCreateActionSpace")(session, &spaceInfo, &hand), XR_SUCCESS);
 	EXPECT_EQ(locate(hand, application.space(session, XR_REFERENCE_SPACE_TYPE_LOCAL), realTime()).locationFlags, 0u);
-}
-
-TEST(DebugMessenger, HearsWhatTheApplicationDidWrong)
-{
-	FakeService service;
-	const Application application({"XR_EXT_debug_utils"});
-	std::string heard;
-	const XrDebugUtilsMessengerCreateInfoEXT info{
-		.type = XR_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-		.messageSeverities = XR_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-		.messageTypes = XR_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
-		.userCallback = [](XrDebugUtilsMessageSeverityFlagsEXT, XrDebugUtilsMessageTypeFlagsEXT,
-						   const XrDebugUtilsMessengerCallbackDataEXT *data, void *user) -> XrBool32 {
-			*static_cast<std::string *>(user) = std::string(data->functionName) + ": " + data->message;
-			return XR_FALSE;
-		},
-		.userData = &heard};
-	XrDebugUtilsMessengerEXT messenger = XR_NULL_HANDLE;
-	ASSERT_EQ(
-		application.get<PFN_xrCreateDebugUtilsMessengerEXT>("xrCreateDebugUtilsMessengerEXT")(application.instance, &info, &messenger),
-		XR_SUCCESS);
-	XrPath path = 0;
-	EXPECT_EQ(application.get<PFN_xrStringToPath>("xrStringToPath")(application.instance, "/Bad", &path), XR_ERROR_PATH_FORMAT_INVALID);
-	EXPECT_EQ(heard, "xrStringToPath: \"/Bad\" is not a well-formed path");
-	ASSERT_EQ(application.get<PFN_xrDestroyDebugUtilsMessengerEXT>("xrDestroyDebugUtilsMessengerEXT")(messenger), XR_SUCCESS);
-	heard.clear();
-	application.get<PFN_xrStringToPath>("xrStringToPath")(application.instance, "/Bad", &path);
-	EXPECT_EQ(heard, "");
 }
 
 } // namespace

@@ -43,7 +43,7 @@ void viewPose(benchmark::State &state)
 {
 	ipc::ViewTable views{};
 	views.eyeInHead = views.cameraInHead = {identityPose, identityPose};
-	const HeadMotion head = PoseHistory(filledRing()).at(5 * second);
+	const XrPosef head = headInOrigin(views, PoseHistory(filledRing()).at(5 * second));
 	for (auto _ : state) benchmark::DoNotOptimize(viewInOrigin(views, 0, head, head));
 }
 BENCHMARK(viewPose);

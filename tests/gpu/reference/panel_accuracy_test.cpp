@@ -39,6 +39,7 @@ struct LensChoice {
 	const char *name;
 	bool spline;
 };
+void PrintTo(const LensChoice &lens, std::ostream *to) { *to << lens.name; }
 
 /// Renderer and reference of one lens: built once for all its cases.
 class Bench

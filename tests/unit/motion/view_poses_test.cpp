@@ -48,11 +48,11 @@ TEST(ExposureShown, WithoutCameraOrSenseItIsTheDisplayTime)
 
 TEST(ViewPose, OffsetZeroIsTheEyeAndOneTheCameraAtItsExposure)
 {
-	const HeadMotion now = looking(0.9), then = looking(0.6);
+	const ipc::ViewTable atEye = table(0), atCamera = table(1), between = table(0.25f);
+	const XrPosef now = headInOrigin(atEye, looking(0.9)), then = headInOrigin(atEye, looking(0.6));
 	for (uint32_t eye = 0; eye < 2; ++eye) {
-		const ipc::ViewTable atEye = table(0), atCamera = table(1), between = table(0.25f);
-		const XrPosef eyePose = headInOrigin(atEye, now) * atEye.eyeInHead[eye];
-		const XrVector3f cameraThen = headInOrigin(atEye, then) * atEye.cameraInHead[eye].position;
+		const XrPosef eyePose = now * atEye.eyeInHead[eye];
+		const XrVector3f cameraThen = then * atEye.cameraInHead[eye].position;
 		EXPECT_LT(length(viewInOrigin(atEye, eye, now, then).position - eyePose.position), 1e-6);
 		EXPECT_LT(length(viewInOrigin(atCamera, eye, now, then).position - cameraThen), 1e-6);
 		EXPECT_LT(length(viewInOrigin(between, eye, now, then).position - (eyePose.position * 0.75f + cameraThen * 0.25f)), 1e-6);
