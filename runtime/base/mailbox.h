@@ -21,12 +21,6 @@ public:
 		auto slot = box_.lock();
 		return std::exchange(*slot, std::nullopt);
 	}
-	std::optional<T> waitAndTake(std::stop_token stop)
-	{
-		auto slot = box_.lock();
-		if (!slot.wait(stop, [](auto &s) { return s.has_value(); })) return std::nullopt;
-		return std::exchange(*slot, std::nullopt);
-	}
 
 private:
 	Guarded<std::optional<T>> box_;

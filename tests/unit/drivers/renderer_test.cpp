@@ -2,6 +2,7 @@
 #include "drivers/synthetic/motion.h"
 #include "drivers/synthetic/renderer.h"
 #include "tests/unit/drivers/support.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 
 using namespace arift;
@@ -182,8 +183,18 @@ TEST(Renderer, SurvivesAnyPose)
 {
 	const CameraGeometry geometry = test::PlainLens{.width = 100, .height = 50, .focalLength = 20}.geometry();
 	const glm::dvec3 places[] = {{0, -1.6, 0}, {100, 100, 100}, {-0.28, -0.2, -0.32}, {-2.9, 1, -5.2}, {NAN, 0, 0}};
+	const std::vector<Marker> markers{{{0, 0, -1}, 0.1}};
 	for (const glm::dvec3 &place : places)
-		for (const double yaw : {0.0, M_PI / 2, 2.0}) draw(geometry, {{{0, 0, -1}, 0.1}}, {}, {rotationOf({0, yaw, 0}), place, {}, {}, {}});
+		for (const double yaw : {0.0, M_PI / 2, 2.0}) {
+			// Drawn over two values, the images differ where a pixel was left out.
+			std::array<std::vector<std::byte>, 2> images;
+			for (const unsigned before : {0u, 1u}) {
+				images[before].assign(size_t(geometry.width) * geometry.height, std::byte(255 * before));
+				Renderer(room(), markers, geometry, grey).draw(rotationOf({0, yaw, 0}), place, 0, images[before]);
+			}
+			EXPECT_EQ(images[0], images[1]) << place.x << " " << yaw;
+			EXPECT_GT(std::ranges::max(images[0]), std::byte(0)) << "an image of something: " << place.x << " " << yaw;
+		}
 }
 
 TEST(Renderer, TheRoomIsWhole)
