@@ -6,16 +6,6 @@
 namespace arift
 {
 
-std::filesystem::path findFile(const std::string &name, const std::filesystem::path &configuration)
-{
-	const std::filesystem::path path(name);
-	if (path.is_relative()) {
-		const auto beside = std::filesystem::absolute(configuration).parent_path() / path;
-		if (std::error_code error; std::filesystem::exists(beside, error)) return beside;
-	}
-	return path;
-}
-
 CsvReader::CsvReader(const std::filesystem::path &file) : path_(file), file_(file)
 {
 	if (!std::filesystem::exists(file)) throw InputError("{}: no such file", file.string());

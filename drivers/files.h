@@ -1,4 +1,4 @@
-// Files that a configuration names, and tables of numbers in text files: every complaint names file, line and value.
+// Tables of numbers in text files: every complaint names file, line and value.
 #pragma once
 #include "runtime/base/error.h"
 #include <filesystem>
@@ -9,9 +9,6 @@
 
 namespace arift
 {
-
-/// A path as it stands in a configuration file: absolute, beside that file, or from the working directory, in this order.
-std::filesystem::path findFile(const std::string &name, const std::filesystem::path &configuration);
 
 /// A table in a text file, separated by commas: empty lines and those that begin with # or a letter are passed over. Throws InputError.
 class CsvReader

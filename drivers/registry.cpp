@@ -13,8 +13,10 @@ namespace
 struct Entry {
 	const char *name;
 	std::unique_ptr<Driver> (*make)(const DriverContext &);
+	void (*check)(const std::shared_ptr<const TomlDocument> &);
 };
-constexpr std::array entries{Entry{"synthetic", synthetic::makeDriver}, Entry{"replay", replay::makeDriver}};
+constexpr std::array entries{Entry{"synthetic", synthetic::makeDriver, synthetic::checkSettings},
+							 Entry{"replay", replay::makeDriver, replay::checkSettings}};
 
 } // namespace
 
@@ -25,14 +27,19 @@ std::vector<std::string> driverNames()
 	return names;
 }
 
+void checkDriverSettings(const std::shared_ptr<const TomlDocument> &configuration)
+{
+	for (const Entry &entry : entries) entry.check(configuration);
+}
+
 std::unique_ptr<Driver> makeDriver(const std::string &name, const DriverContext &context)
 {
-	std::string known;
+	std::string known = "\"auto\"";
 	for (const Entry &entry : entries) {
 		if (name == entry.name || name == "auto") return entry.make(context);
-		known += fmt::format("{}\"{}\"", known.empty() ? "" : ", ", entry.name);
+		known += fmt::format(", \"{}\"", entry.name);
 	}
-	throw InputError("driver \"{}\" is unknown, expected \"auto\", {}", name, known);
+	throw InputError("driver \"{}\" is unknown, expected one of {}", name, known);
 }
 
 } // namespace arift

@@ -11,8 +11,11 @@ namespace arift
 /// Names for makeDriver, in the order in which they are worth trying.
 std::vector<std::string> driverNames();
 
-/// "auto" is the first of them. Opens no device yet. Throws InputError for an unknown name and for wrong settings. The context's clock
-/// outlives the driver and its devices.
+/// Checks every driver's table of the configuration, whichever driver is used. Opens nothing. Throws InputError.
+void checkDriverSettings(const std::shared_ptr<const TomlDocument> &configuration);
+
+/// "auto" takes the first of them, for no driver of hardware that could be plugged in is built in yet. Opens no device yet. Throws
+/// InputError for an unknown name and for wrong settings. The context's clock outlives the driver and its devices.
 std::unique_ptr<Driver> makeDriver(const std::string &name, const DriverContext &context);
 
 } // namespace arift

@@ -1,11 +1,9 @@
 #include "drivers/replay/driver.h"
-#include "drivers/files.h"
 #include "drivers/played_camera.h"
 #include "drivers/replay/brd_file.h"
 #include "drivers/replay/played_tracker.h"
 #include "drivers/synthetic/images.h"
-#include "drivers/synthetic/truth.h"
-#include "runtime/base/toml.h"
+#include "runtime/base/toml_document.h"
 
 namespace arift::replay
 {
@@ -18,16 +16,17 @@ struct Settings {
 	bool loop = true;
 };
 
-Settings readSettings(const std::filesystem::path &configuration)
+Settings readSettings(TomlTable &table)
 {
-	if (configuration.empty()) throw InputError("replay: no configuration, expected replay.recording to name a recording");
-	const toml::table file = parseTomlFile(configuration);
-	TomlTable table = TomlTable(file, configuration.string(), "").table("replay", true);
-	const Settings settings{findFile(table.text("recording"), configuration), table.boolean("loop", true)};
+	Settings settings;
+	if (table.has("recording")) settings.recording = table.path("recording");
+	settings.loop = table.boolean("loop", settings.loop);
 	table.finish();
-	if (!std::filesystem::exists(settings.recording)) table.complain("recording", "an existing folder in the EuRoC layout, or a .brd file");
 	return settings;
 }
+
+/// The layout does not say when an image arrived, nor how long it was exposed: readout and transfer of a camera of this kind.
+constexpr XrDuration transferDelay = 15 * millisecond;
 
 class RecordedImages final : public ImageSource
 {
@@ -64,9 +63,6 @@ public:
 	}
 
 private:
-	/// The layout does not say when an image arrived, nor how long it was exposed: readout and transfer of a camera of this kind.
-	static constexpr XrDuration transferDelay = 15 * millisecond;
-
 	const XrTime start_;
 	const RecordedCamera camera_;
 	const XrDuration length_;
@@ -82,10 +78,11 @@ public:
 	{
 	}
 
-	std::string name() const override { return fmt::format("recording {}", settings_.recording.filename().string()); }
+	std::string name() const override { return fmt::format("recording {}", recording_.name); }
 
 	std::unique_ptr<ImuTracker> openTracker() override
 	{
+		if (hasEnded(recording_.imu.back().time)) return nullptr;
 		return std::make_unique<PlayedTracker>(clock_, start_,
 											   ImuPlayback{.name = "Recorded IMU",
 														   .samples = recording_.imu,
@@ -97,11 +94,15 @@ public:
 	std::unique_ptr<Camera> openCamera(uint32_t eye, FrameAllocator allocate) override
 	{
 		if (eye >= recording_.cameras.size() || recording_.cameras[eye].images.empty()) return nullptr;
+		if (hasEnded(recording_.cameras[eye].images.back().time + transferDelay)) return nullptr;
 		auto images = std::make_unique<RecordedImages>(start_, recording_.cameras[eye], recording_.length, settings_.loop, eye);
 		return std::make_unique<PlayedCamera>(clock_, std::move(images), allocate);
 	}
 
 private:
+	/// What is played once is not there any more after the last that it gave.
+	bool hasEnded(XrDuration last) const { return !settings_.loop && clock_.now() >= start_ + last; }
+
 	Clock &clock_;
 	const Settings settings_;
 	const EurocRecording recording_;
@@ -149,6 +150,7 @@ public:
 	/// Samples are turned into the axes of the tracker that the Rig describes.
 	std::unique_ptr<ImuTracker> openTracker() override
 	{
+		if (!settings_.loop && context_.clock.now() >= world_->start + fromSeconds(recording_.records.back().seconds)) return nullptr;
 		const glm::dquat turn = glm::conjugate(toGlm(context_.imuInHead.orientation)) * imuInHead_;
 		ImuPlayback playback{.name = fmt::format("Recorded IMU of {}", recording_.name),
 							 .samples = {},
@@ -181,9 +183,17 @@ private:
 
 } // namespace
 
+void checkSettings(const std::shared_ptr<const TomlDocument> &configuration)
+{
+	TomlTable table = rootOf(configuration).table("replay");
+	readSettings(table);
+}
+
 std::unique_ptr<Driver> makeDriver(const DriverContext &context)
 {
-	const Settings settings = readSettings(context.configuration);
+	TomlTable table = rootOf(context.configuration).table("replay");
+	const Settings settings = readSettings(table);
+	if (!std::filesystem::exists(settings.recording)) table.complain("recording", "an existing folder in the EuRoC layout, or a .brd file");
 	if (std::filesystem::is_directory(settings.recording)) return std::make_unique<EurocDriver>(context, settings);
 	return std::make_unique<BrdDriver>(context, settings);
 }

@@ -1,5 +1,6 @@
 #include "drivers/replay/euroc.h"
 #include "drivers/files.h"
+#include "runtime/base/euroc_folder.h"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -102,12 +103,10 @@ std::vector<RecordedImu> readImu(const fs::path &file, int64_t begin, int64_t en
 
 EurocRecording readEuroc(const fs::path &folder)
 {
-	const fs::path root = fs::exists(folder / "mav0") ? folder / "mav0" : folder;
-	if (!fs::is_directory(root / "cam0"))
-		throw InputError("{}: no folder cam0, expected a recording in the EuRoC layout (mav0/cam0, mav0/imu0)", root.string());
-	EurocRecording recording;
+	const auto [root, name, isStereo] = findEuroc(folder);
+	EurocRecording recording{.name = name};
 	recording.cameras[0] = readCamera(root / "cam0");
-	if (fs::exists(root / "cam1")) recording.cameras[1] = readCamera(root / "cam1");
+	if (isStereo) recording.cameras[1] = readCamera(root / "cam1");
 
 	int64_t begin = INT64_MAX, end = 0;
 	for (const RecordedCamera &camera : recording.cameras) {

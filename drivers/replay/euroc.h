@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace arift::replay
@@ -31,13 +32,14 @@ struct RecordedCamera {
 
 /// Begins with the first image; ends one interval after the last.
 struct EurocRecording {
+	std::string name; ///< for people
 	XrDuration length = 0;
 	std::array<RecordedCamera, 2> cameras; ///< left, right; without images where the recording has no cam1
 	std::vector<RecordedImu> imu;          ///< within the recording, rising in time
 	double imuRate = 0;                    ///< from the median interval
 };
 
-/// `folder`: the one that holds mav0, or mav0 itself. Checks that every image is there with the right size and format; decodes none.
+/// `folder`: as base/euroc_folder.h says. Checks that every image is there with the right size and format; decodes none.
 /// Throws InputError, naming file and line.
 EurocRecording readEuroc(const std::filesystem::path &folder);
 

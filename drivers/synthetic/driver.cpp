@@ -3,6 +3,7 @@
 #include "drivers/synthetic/images.h"
 #include "drivers/synthetic/recorded_motion.h"
 #include "drivers/synthetic/transport.h"
+#include "runtime/base/toml_document.h"
 
 namespace arift::synthetic
 {
@@ -26,6 +27,10 @@ class SyntheticDriver final : public Driver
 public:
 	explicit SyntheticDriver(const DriverContext &context) : context_(context), settings_(readSettings(context.configuration))
 	{
+		if (settings_.motion == MotionKind::file && !std::filesystem::is_regular_file(settings_.motionFile))
+			rootOf(context.configuration)
+				.table("synthetic")
+				.complain("motion_file", fmt::format("a trajectory or .brd file, and {} is no file", settings_.motionFile.string()));
 		auto world = std::make_shared<World>();
 		world->start = context.clock.now();
 		world->motion = makeMotion(settings_, toGlm(context.neckInHead));
@@ -58,6 +63,8 @@ private:
 };
 
 } // namespace
+
+void checkSettings(const std::shared_ptr<const TomlDocument> &configuration) { readSettings(configuration); }
 
 std::unique_ptr<Driver> makeDriver(const DriverContext &context) { return std::make_unique<SyntheticDriver>(context); }
 

@@ -6,6 +6,9 @@
 namespace arift::synthetic
 {
 
+/// Throws InputError where [synthetic] is wrong; opens nothing.
+void checkSettings(const std::shared_ptr<const TomlDocument> &configuration);
+
 /// Reads [synthetic] of the context's configuration. Throws InputError. The context's clock outlives the driver and its devices.
 std::unique_ptr<Driver> makeDriver(const DriverContext &context);
 

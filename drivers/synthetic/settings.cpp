@@ -1,6 +1,5 @@
 #include "drivers/synthetic/settings.h"
-#include "drivers/files.h"
-#include "runtime/base/toml.h"
+#include "runtime/base/toml_document.h"
 #include <algorithm>
 #include <glm/geometric.hpp>
 
@@ -20,15 +19,15 @@ XrDuration milliseconds(TomlTable &table, const char *key, double high, XrDurati
 	return fromSeconds(table.number(key, 0, high, inSeconds(otherwise) * 1e3) * 1e-3);
 }
 
-void readMotion(TomlTable &table, const std::filesystem::path &configuration, Settings &settings)
+void readMotion(TomlTable &table, Settings &settings)
 {
 	settings.motion = MotionKind(table.choice("motion", {"rest", "constant", "natural", "file"}, size_t(settings.motion)));
 	const bool isConstant = settings.motion == MotionKind::constant, isFile = settings.motion == MotionKind::file;
-	if (isConstant || table.has("rate")) settings.rate = vectorOf(table.numbers("rate", 3)) * degree;
-	if (isFile || table.has("motion_file")) settings.motionFile = findFile(table.text("motion_file"), configuration);
+	if (table.has("rate") || isConstant) settings.rate = vectorOf(table.numbers("rate", 3)) * degree;
+	if (table.has("motion_file") || isFile) settings.motionFile = table.path("motion_file");
 	settings.motionDelay = table.number("motion_delay", 0, 3600, settings.motionDelay);
 	settings.seed = uint64_t(table.integer("seed", 0, INT64_MAX, int64_t(settings.seed)));
-	settings.truth = table.text("truth", "");
+	if (table.has("truth")) settings.truth = table.path("truth");
 }
 
 void readTracker(TomlTable &table, Settings &settings)
@@ -71,13 +70,11 @@ void readCameras(TomlTable &table, Settings &settings)
 
 } // namespace
 
-Settings readSettings(const std::filesystem::path &configuration)
+Settings readSettings(const std::shared_ptr<const TomlDocument> &configuration)
 {
 	Settings settings;
-	if (configuration.empty()) return settings;
-	const toml::table file = parseTomlFile(configuration);
-	TomlTable table = TomlTable(file, configuration.string(), "").table("synthetic");
-	readMotion(table, configuration, settings);
+	TomlTable table = rootOf(configuration).table("synthetic");
+	readMotion(table, settings);
 	readTracker(table, settings);
 	readCameras(table, settings);
 	table.finish();

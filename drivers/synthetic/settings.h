@@ -3,6 +3,12 @@
 #include "drivers/synthetic/firmware.h"
 #include "drivers/synthetic/scene.h"
 #include <filesystem>
+#include <memory>
+
+namespace arift
+{
+class TomlDocument;
+}
 
 namespace arift::synthetic
 {
@@ -31,7 +37,7 @@ struct Settings {
 	std::vector<Marker> markers;
 };
 
-/// Reads [synthetic] of `configuration`; the defaults where the path is empty or the table is absent. Throws InputError.
-Settings readSettings(const std::filesystem::path &configuration);
+/// Reads [synthetic] of `configuration`; the defaults where either is absent. Opens none of the files it names. Throws InputError.
+Settings readSettings(const std::shared_ptr<const TomlDocument> &configuration);
 
 } // namespace arift::synthetic

@@ -40,12 +40,17 @@ std::string shown(const toml::node &node)
 
 const toml::table emptyTable;
 
+/// Sources that are no files are called "--set KEY=VALUE": they have no lines and no folder.
+bool isCommandLine(std::string_view source) { return source.starts_with("--"); }
+
 } // namespace
 
 std::string TomlTable::where(const toml::node &node) const
 {
-	const auto line = node.source().begin.line; // 0: it was never in a file
-	return line == 0 ? file_ : fmt::format("{}:{}", file_, line);
+	const toml::source_region &source = node.source();
+	const std::string &place = source.path ? *source.path : file_;
+	const bool hasLine = source.begin.line > 0 && !isCommandLine(place); // 0: it stands nowhere
+	return hasLine ? fmt::format("{}:{}", place, source.begin.line) : place;
 }
 
 void TomlTable::complain(const char *key, std::string_view expected) const
@@ -83,7 +88,6 @@ int64_t TomlTable::integer(const char *key, int64_t low, int64_t high)
 
 bool TomlTable::boolean(const char *key, bool otherwise)
 {
-	asked_.insert(key);
 	if (!has(key)) return otherwise;
 	const toml::node &found = node(key, "true or false");
 	if (!found.is_boolean()) complain(key, "true or false");
@@ -97,9 +101,16 @@ std::string TomlTable::text(const char *key)
 	return *found.value<std::string>();
 }
 
+std::filesystem::path TomlTable::path(const char *key)
+{
+	const std::filesystem::path value = text(key);
+	if (value.empty()) return value;
+	const toml::source_path_ptr &source = table_->get(key)->source().path;
+	return std::filesystem::absolute(source && !isCommandLine(*source) ? std::filesystem::absolute(*source).parent_path() / value : value);
+}
+
 size_t TomlTable::choice(const char *key, std::initializer_list<const char *> choices, size_t otherwise)
 {
-	asked_.insert(key);
 	if (!has(key)) return otherwise;
 	const auto value = table_->get(key)->value<std::string>();
 	std::string expected = "one of";
@@ -140,7 +151,6 @@ std::vector<std::string> TomlTable::texts(const char *key)
 
 TomlTable TomlTable::table(const char *key, bool required)
 {
-	asked_.insert(key);
 	const std::string path = path_.empty() ? key : path_ + "." + key;
 	if (!has(key) && !required) return {emptyTable, file_, path};
 	const toml::table *found = node(key, "a table").as_table();
@@ -150,7 +160,6 @@ TomlTable TomlTable::table(const char *key, bool required)
 
 std::vector<TomlTable> TomlTable::tables(const char *key)
 {
-	asked_.insert(key);
 	std::vector<TomlTable> result;
 	if (!has(key)) return result;
 	const toml::array *array = table_->get(key)->as_array();
@@ -164,9 +173,13 @@ std::vector<TomlTable> TomlTable::tables(const char *key)
 
 void TomlTable::finish() const
 {
-	for (const auto &[key, value] : *table_)
-		if (!asked_.contains(key.str()))
-			throw InputError("{}: unknown key {}{}{} = {}", where(value), path_, path_.empty() ? "" : ".", key.str(), shown(value));
+	for (const auto &[key, value] : *table_) {
+		if (asked_.contains(key.str())) continue;
+		std::string known;
+		for (const std::string &name : asked_) known += (known.empty() ? "" : ", ") + name;
+		throw InputError("{}: unknown key {}{}{} = {}, expected one of: {}", where(value), path_, path_.empty() ? "" : ".", key.str(),
+						 shown(value), known);
+	}
 }
 
 toml::table parseTomlFile(const std::filesystem::path &file)

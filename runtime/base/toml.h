@@ -23,7 +23,12 @@ public:
 	{
 	}
 
-	bool has(std::string_view key) const { return table_->contains(key); }
+	/// Counts as asking for it.
+	bool has(const char *key)
+	{
+		asked_.insert(key);
+		return table_->contains(key);
+	}
 	double number(const char *key, double low, double high);
 	double number(const char *key, double low, double high, double otherwise) { return has(key) ? number(key, low, high) : otherwise; }
 	int64_t integer(const char *key, int64_t low, int64_t high);
@@ -34,6 +39,9 @@ public:
 	bool boolean(const char *key, bool otherwise);
 	std::string text(const char *key);
 	std::string text(const char *key, std::string otherwise) { return has(key) ? text(key) : std::move(otherwise); }
+	/// A path. A relative one begins at the folder of the file in which the value stands; from the command line, at the working directory.
+	/// An empty text is an empty path.
+	std::filesystem::path path(const char *key);
 	/// One of `choices`; its index.
 	size_t choice(const char *key, std::initializer_list<const char *> choices, size_t otherwise);
 	/// An array of numbers; `size` 0 means any length.
@@ -44,7 +52,7 @@ public:
 	TomlTable table(const char *key, bool required = false);
 	std::vector<TomlTable> tables(const char *key);
 
-	/// Every key must have been asked for: a misspelt key is an error, not a default.
+	/// Every key must have been asked for: a misspelt key is an error, not a default. The message lists those that were.
 	void finish() const;
 	[[noreturn]] void complain(const char *key, std::string_view expected) const;
 

@@ -2,11 +2,13 @@
 #pragma once
 #include "runtime/device/camera.h"
 #include "runtime/device/imu_tracker.h"
-#include <filesystem>
+#include <memory>
 #include <vector>
 
 namespace arift
 {
+
+class TomlDocument;
 
 /// Where a simulated camera looks: what its driver must know to draw, as plain numbers.
 struct CameraGeometry {
@@ -19,10 +21,10 @@ struct CameraGeometry {
 /// What a driver may know of the world it is opened in.
 struct DriverContext {
 	Clock &clock;
-	std::filesystem::path configuration;           ///< the TOML file whose table of the driver's name holds its settings; may be empty
-	std::array<CameraGeometry, 2> geometry;        ///< for drivers that simulate cameras: left, right
-	XrPosef imuInHead = {{0, 0, 0, 1}, {0, 0, 0}}; ///< for drivers that simulate a tracker
-	XrVector3f neckInHead{0, -0.075f, 0.0805f};    ///< the pivot a simulated head turns about
+	std::shared_ptr<const TomlDocument> configuration; ///< its table of the driver's name holds the driver's settings; null: all defaults
+	std::array<CameraGeometry, 2> geometry;            ///< for drivers that simulate cameras: left, right
+	XrPosef imuInHead = {{0, 0, 0, 1}, {0, 0, 0}};     ///< for drivers that simulate a tracker
+	XrVector3f neckInHead{0, -0.075f, 0.0805f};        ///< the pivot a simulated head turns about
 };
 
 class Driver

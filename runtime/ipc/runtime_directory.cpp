@@ -1,9 +1,9 @@
 #include "runtime/ipc/runtime_directory.h"
 #include "runtime/base/error.h"
+#include "runtime/base/user_directories.h"
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,20 +14,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-fs::path environmentPath(const char *name)
-{
-	const char *value = std::getenv(name);
-	return value && *value == '/' ? fs::path(value) : fs::path(); // XDG: relative paths are to be ignored
-}
-
-fs::path home()
-{
-	if (fs::path path = environmentPath("HOME"); !path.empty()) return path;
-	const passwd *user = ::getpwuid(::getuid());
-	if (!user || !user->pw_dir) throw InputError("neither HOME nor the user database names a home directory");
-	return user->pw_dir;
-}
 
 void requirePrivate(const fs::path &path)
 {
@@ -52,7 +38,7 @@ bool isOwnDirectory(const fs::path &path)
 
 fs::path runtimeDirectory()
 {
-	fs::path base = environmentPath("XDG_RUNTIME_DIR");
+	fs::path base = directoryFrom("XDG_RUNTIME_DIR");
 	const std::string user = std::to_string(::geteuid());
 	if (base.empty() && isOwnDirectory("/run/user/" + user)) base = "/run/user/" + user;
 	const fs::path path = base.empty() ? fs::path("/tmp/arift-" + user) : base / "arift";
@@ -67,20 +53,13 @@ fs::path lockPath() { return runtimeDirectory() / "service.lock"; }
 
 fs::path logPath()
 {
-	fs::path base = environmentPath("XDG_STATE_HOME");
-	if (base.empty()) base = home() / ".local/state";
+	fs::path base = directoryFrom("XDG_STATE_HOME");
+	if (base.empty()) base = homeDirectory() / ".local/state";
 	const fs::path folder = base / "arift";
 	std::error_code problem;
 	fs::create_directories(folder, problem);
 	if (problem) throw InputError("{}: cannot be made: {}", folder.string(), problem.message());
 	return folder / "service.log";
-}
-
-fs::path configDirectory()
-{
-	fs::path base = environmentPath("XDG_CONFIG_HOME");
-	if (base.empty()) base = home() / ".config";
-	return base / "arift";
 }
 
 } // namespace arift::ipc

@@ -1,5 +1,6 @@
 // Where the service's socket, lock and log lie, and that nobody else can put a socket there.
 #pragma once
+#include "runtime/base/user_directories.h"
 #include <filesystem>
 
 namespace arift::ipc
@@ -12,7 +13,6 @@ std::filesystem::path socketPath();
 std::filesystem::path lockPath();
 /// $XDG_STATE_HOME/arift/service.log, else ~/.local/state/arift/service.log; folders are made.
 std::filesystem::path logPath();
-/// $XDG_CONFIG_HOME/arift, else ~/.config/arift. Not made.
-std::filesystem::path configDirectory();
+using arift::configDirectory;
 
 } // namespace arift::ipc

@@ -1,5 +1,6 @@
 #include "runtime/optics/euroc_rig.h"
 #include "runtime/base/error.h"
+#include "runtime/base/euroc_folder.h"
 #include <fstream>
 #include <glm/gtc/quaternion.hpp>
 #include <sstream>
@@ -146,18 +147,18 @@ XrPosef relative(const Placed &head, const Placed &thing)
 
 Rig rigFromEuroc(const std::filesystem::path &recording)
 {
-	const std::filesystem::path sensors = recording.filename() == "mav0" ? recording : recording / "mav0";
-	if (!std::filesystem::is_directory(sensors)) throw InputError("{}: no such folder, expected a EuRoC recording", sensors.string());
-	const std::array<SensorFile, 2> files{SensorFile(sensors / "cam0" / "sensor.yaml"), SensorFile(sensors / "cam1" / "sensor.yaml")};
-	const SensorFile imu(sensors / "imu0" / "sensor.yaml");
-	const Placed left = cameraInBody(files[0]), right = cameraInBody(files[1]);
+	const EurocFolder folder = findEuroc(recording);
+	std::vector<SensorFile> files{SensorFile(folder.sensors / "cam0" / "sensor.yaml")};
+	if (folder.isStereo) files.emplace_back(folder.sensors / "cam1" / "sensor.yaml");
+	const SensorFile imu(folder.sensors / "imu0" / "sensor.yaml");
+	const Placed left = cameraInBody(files.front()), right = cameraInBody(files.back());
 	const Placed head{glm::normalize(glm::slerp(left.orientation, right.orientation, 0.5)), (left.position + right.position) / 2.0};
 	Rig rig;
-	rig.name = fmt::format("EuRoC recording {}", std::filesystem::weakly_canonical(sensors).parent_path().filename().string());
+	rig.name = fmt::format("EuRoC recording {}", folder.name);
 	const float half = float(rig.interpupillaryDistance / 2);
 	rig.eyeInHead = {XrPosef{identityOrientation, {-half, 0, 0}}, XrPosef{identityOrientation, {half, 0, 0}}};
-	rig.cameras.push_back({.model = modelOf(files[0]), .cameraInHead = relative(head, left)});
-	rig.cameras.push_back({.model = modelOf(files[1]), .cameraInHead = relative(head, right)});
+	for (const SensorFile &file : files)
+		rig.cameras.push_back({.model = modelOf(file), .cameraInHead = relative(head, cameraInBody(file))});
 	const glm::dmat4 imuPose = imu.sensorInBody();
 	rig.imu.imuInHead = toXr(glm::normalize(glm::conjugate(head.orientation) * glm::quat_cast(glm::dmat3(imuPose))));
 	return rig;

@@ -2,6 +2,7 @@
 // tangential distortion is added, then stretch and centre:
 //   pixel = centre + affine * (radius(angle) * azimuth + tangential(t)),  t = azimuth * sin(angle) / (cos(angle) + xi)
 #pragma once
+#include "runtime/base/error.h"
 #include "runtime/optics/camera_model.h"
 #include <algorithm>
 #include <span>
@@ -37,6 +38,17 @@ ARIFT_CAMERA_MODEL(Mei)
 ARIFT_CAMERA_MODEL(RadTan)
 ARIFT_CAMERA_MODEL(DoubleSphere)
 #undef ARIFT_CAMERA_MODEL
+
+/// The parts of an OCam, in the order in which OCamCalib writes them.
+enum class OCamPart { direct, inverse, centre, affine };
+/// What check(const OCam &) throws where one part is wrong by itself.
+struct OCamError : InputError {
+	OCamPart part;
+	template <typename... Args> OCamError(OCamPart wrong, fmt::format_string<Args...> format, Args &&...args)
+		: InputError(format, std::forward<Args>(args)...), part(wrong)
+	{
+	}
+};
 
 /// Shared by the models with focal lengths.
 void checkPinholePart(double fx, double fy, double cx, double cy);

@@ -1,6 +1,5 @@
 // OCamCalib: Scaramuzza, Martinelli & Siegwart, "A Flexible Technique for Accurate Omnidirectional Camera Calibration" (2006), section 2.
 // Its frame has x along the image's rows (down), y along its columns (right) and z backwards; here x is m.y, y is m.x and z is -cos.
-#include "runtime/base/error.h"
 #include "runtime/optics/invert.h"
 #include "runtime/optics/models.h"
 #include <numbers>
@@ -53,12 +52,13 @@ void check(const OCam &camera)
 	checkFinite("the inverse polynomial", camera.inverse);
 	checkFinite("the centre and stretch", std::array{camera.centreRow, camera.centreColumn, camera.c, camera.d, camera.e});
 	if (!camera.direct.empty() && !(camera.direct[0] < 0))
-		throw InputError("direct polynomial a0 = {}, expected a negative number", camera.direct[0]);
+		throw OCamError(OCamPart::direct, "direct polynomial a0 = {}, expected a negative number", camera.direct[0]);
 	if (camera.direct.empty() && std::abs(inverseRadius(camera, 0).value) > 0.1)
-		throw InputError("inverse polynomial gives {:.3f} px on the axis, expected less than 0.1", inverseRadius(camera, 0).value);
-	if (std::abs(camera.c - 1) > 0.1) throw InputError("stretch c = {}, expected nearly 1", camera.c);
-	if (std::abs(camera.d) > 0.1 || std::abs(camera.e) > 0.1)
-		throw InputError("stretch d = {}, e = {}, expected nearly 0", camera.d, camera.e);
+		throw OCamError(OCamPart::inverse, "inverse polynomial gives {:.3f} px on the axis, expected less than 0.1",
+						inverseRadius(camera, 0).value);
+	if (std::abs(camera.c - 1) > 0.1) throw OCamError(OCamPart::affine, "affine c = {}, expected nearly 1", camera.c);
+	if (std::abs(camera.d) > 0.1) throw OCamError(OCamPart::affine, "affine d = {}, expected nearly 0", camera.d);
+	if (std::abs(camera.e) > 0.1) throw OCamError(OCamPart::affine, "affine e = {}, expected nearly 0", camera.e);
 }
 
 Plane plane(const OCam &camera)

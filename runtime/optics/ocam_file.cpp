@@ -80,18 +80,12 @@ uint32_t pixels(const std::string &file, const NumberLine &line, size_t index, c
 	return uint32_t(value);
 }
 
-void checkNumbers(const std::string &file, const std::vector<NumberLine> &lines, const OCam &camera, uint32_t width, uint32_t height)
+void checkCentre(const std::string &file, int line, const OCam &camera, uint32_t width, uint32_t height)
 {
-	if (!(camera.direct[0] < 0))
-		throw InputError("{}:{}: direct polynomial a0 = {}, expected a negative number", file, lines[0].line, camera.direct[0]);
 	if (!(camera.centreRow > -0.5 && camera.centreRow < height - 0.5))
-		throw InputError("{}:{}: centre row = {}, expected inside the image of {} rows", file, lines[2].line, camera.centreRow, height);
+		throw InputError("{}:{}: centre row = {}, expected inside the image of {} rows", file, line, camera.centreRow, height);
 	if (!(camera.centreColumn > -0.5 && camera.centreColumn < width - 0.5))
-		throw InputError("{}:{}: centre column = {}, expected inside the image of {} columns", file, lines[2].line, camera.centreColumn,
-						 width);
-	if (std::abs(camera.c - 1) > 0.1) throw InputError("{}:{}: affine c = {}, expected nearly 1", file, lines[3].line, camera.c);
-	if (std::abs(camera.d) > 0.1) throw InputError("{}:{}: affine d = {}, expected nearly 0", file, lines[3].line, camera.d);
-	if (std::abs(camera.e) > 0.1) throw InputError("{}:{}: affine e = {}, expected nearly 0", file, lines[3].line, camera.e);
+		throw InputError("{}:{}: centre column = {}, expected inside the image of {} columns", file, line, camera.centreColumn, width);
 }
 
 } // namespace
@@ -111,11 +105,13 @@ CameraModel readOCamFile(const std::string &file)
 	camera.d = lines[3].numbers[1];
 	camera.e = lines[3].numbers[2];
 	const uint32_t height = pixels(file, lines[4], 0, "height"), width = pixels(file, lines[4], 1, "width");
-	checkNumbers(file, lines, camera, width, height);
+	checkCentre(file, lines[2].line, camera, width, height);
 	try {
 		CameraModel model(width, height, std::move(camera));
 		models::warnAboutInverse(fmt::format("{}:{}", file, lines[1].line), model);
 		return model;
+	} catch (const models::OCamError &error) {
+		throw InputError("{}:{}: {}", file, lines[size_t(error.part)].line, error.what());
 	} catch (const InputError &error) {
 		throw InputError("{}:{}: direct polynomial: {}", file, lines[0].line, error.what());
 	}

@@ -3,13 +3,15 @@
 #include "runtime/base/pose.h"
 #include "runtime/optics/camera_model.h"
 #include "runtime/optics/lens_model.h"
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 
 namespace arift
 {
 
-/// When each panel line is seen. facts: DK1, 1280x800 CVT reduced blanking, 823 lines at 59.91 Hz.
+/// When each panel line is seen. By default the DK1: 1280x800 CVT reduced blanking, 823 lines at 59.91 Hz.
 struct PanelTiming {
 	double refreshRate = 59.91;             ///< nominal; the period is measured
 	XrDuration vblankToFirstLine = 182'260; ///< ns
@@ -44,17 +46,21 @@ struct Rig {
 	PanelTiming timing;
 	double interpupillaryDistance = 0.064;
 	std::array<XrPosef, 2> eyeInHead;
-	std::vector<RigCamera> cameras; ///< left, right; or none
+	std::vector<RigCamera> cameras; ///< left, right; one for both eyes; or none
 	ImuCalibration imu;
 	XrVector3f pivotInHead{0, -0.075f, 0.0805f};
+
+	/// The camera whose image an eye is shown; null where there is none.
+	const RigCamera *cameraFor(size_t eye) const { return cameras.empty() ? nullptr : &cameras[std::min(eye, cameras.size() - 1)]; }
 };
 
 /// Throws InputError with file, line and value where the file is wrong. OCamCalib files it names are looked for beside it.
 Rig readRig(const std::filesystem::path &file);
 
 constexpr const char *defaultRig = "arift";
-/// The Rig file of this name: a path (anything with a slash or ending in .toml) as it is; else NAME.toml in $XDG_CONFIG_HOME/arift/rigs,
-/// the installed data folder, the source tree. Throws InputError that lists where it looked.
-std::filesystem::path findRig(const std::string &name);
+/// Whether somebody means a file (anything with a slash or ending in .toml) and not a name.
+bool isRigPath(const std::string &rig);
+/// Where the Rig of this name may lie, the best place first: NAME.toml in the user's configuration, the installed data, the source tree.
+std::array<std::filesystem::path, 3> rigPlaces(const std::string &name);
 
 } // namespace arift

@@ -58,7 +58,12 @@ CameraModel readModel(TomlTable &table, const std::filesystem::path &file)
 {
 	const size_t model = table.choice("model", {"ocam", "kannala_brandt", "mei", "radtan", "double_sphere"}, 99);
 	if (model == 99) table.complain("model", R"("ocam", "kannala_brandt", "mei", "radtan" or "double_sphere")");
-	if (model == 0 && table.has("file")) return readOCamFile((file.parent_path() / table.text("file")).string());
+	if (model == 0 && table.has("file")) {
+		const std::filesystem::path calibration = table.path("file");
+		if (!std::filesystem::is_regular_file(calibration))
+			table.complain("file", fmt::format("an OCamCalib calibration, and {} is no file", calibration.string()));
+		return readOCamFile(calibration.string());
+	}
 	const std::vector<double> size = table.numbers("size", 2);
 	for (const double pixels : size)
 		if (pixels != std::floor(pixels) || pixels < 1 || pixels > 16384)

@@ -6,7 +6,7 @@
 namespace arift
 {
 
-/// `file`: the Rig file; OCamCalib files that the table names lie beside it.
+/// `file`: the Rig file, for warnings.
 RigCamera readRigCamera(TomlTable &table, const std::filesystem::path &file);
 
 /// A unit quaternion x, y, z, w; the identity where the key is absent.

@@ -1,4 +1,5 @@
 // Reads a Rig file. calib/rigs/arift.toml explains every key.
+#include "runtime/optics/lens_tables.h"
 #include "runtime/optics/rig_cameras.h"
 
 namespace arift
@@ -41,7 +42,9 @@ LensModel readLens(TomlTable table, const PanelGeometry &panel)
 {
 	const size_t model = table.choice("model", {"spline", "polynomial"}, 0);
 	if (model == 0) {
-		const SplineLens lens{table.number("eye_relief", 0.005, 0.03, SplineLens{}.eyeRelief)};
+		// Beyond its tables the distortion is unknown, and holding the nearest would not fit the field of view.
+		const double nearest = dk1::splineTables.front().eyeRelief, furthest = dk1::splineTables.back().eyeRelief;
+		const SplineLens lens{table.number("eye_relief", nearest, furthest, SplineLens{}.eyeRelief)};
 		table.finish();
 		return LensModel(lens, panel);
 	}

@@ -1,10 +1,10 @@
 #include "runtime/service/config.h"
-#include "runtime/base/toml.h"
-#include "runtime/ipc/runtime_directory.h"
+#include "drivers/registry.h"
+#include "runtime/base/toml_document.h"
+#include "runtime/base/user_directories.h"
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <fstream>
 
 namespace arift
 {
@@ -13,8 +13,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-constexpr std::array driverTables{"synthetic", "replay", "dk1", "ueye", "aravis", "v4l2"};
 
 std::vector<XrEnvironmentBlendMode> blendModes(TomlTable &passthrough)
 {
@@ -34,12 +32,25 @@ std::vector<XrEnvironmentBlendMode> blendModes(TomlTable &passthrough)
 	return modes;
 }
 
-Config decode(const toml::table &table, const std::string &label)
+std::string driver(TomlTable &headset)
+{
+	const std::string name = headset.text("driver", Config().driver);
+	std::string expected = "\"auto\"";
+	bool isKnown = name == "auto";
+	for (const std::string &known : driverNames()) {
+		expected += fmt::format(", \"{}\"", known);
+		isKnown |= name == known;
+	}
+	if (!isKnown) headset.complain("driver", "one of " + expected);
+	return name;
+}
+
+Config decode(std::shared_ptr<const TomlDocument> document)
 {
 	Config config;
-	TomlTable root(table, label, "");
+	TomlTable root = document->root();
 	TomlTable headset = root.table("headset");
-	config.driver = headset.text("driver", config.driver);
+	config.driver = driver(headset);
 	config.rig = headset.text("rig", config.rig);
 	headset.finish();
 
@@ -59,54 +70,12 @@ Config decode(const toml::table &table, const std::string &label)
 	config.target = TargetKind(compositor.choice("target", {"auto", "offscreen", "window"}, size_t(config.target)));
 	compositor.finish();
 
-	for (const char *driver : driverTables) root.table(driver); // each driver reads and checks its own
-	if (TomlTable replay = root.table("replay"); replay.has("recording")) {
-		const fs::path recording = replay.text("recording"), beside = fs::path(label).parent_path() / recording;
-		config.recording = fs::exists(beside) ? beside : recording;
-	}
+	for (const std::string &name : driverNames()) root.table(name.c_str());
+	checkDriverSettings(document);
+	if (TomlTable replay = root.table("replay"); replay.has("recording")) config.recording = replay.path("recording");
 	root.finish();
+	config.document = std::move(document);
 	return config;
-}
-
-/// "a.b=value" -> the table it stands for.
-toml::table parseOverride(const std::string &text)
-{
-	const size_t equals = text.find('=');
-	if (equals == std::string::npos || equals == 0)
-		throw InputError("--set {}: expected KEY.PATH=VALUE, for instance --set clock.mode=stepped", text);
-	const std::string key = text.substr(0, equals), value = text.substr(equals + 1);
-	try {
-		return toml::parse(key + " = " + value);
-	} catch (const toml::parse_error &) {
-		try {
-			return toml::parse(key + " = '''" + value + "'''"); // a bare word is a text
-		} catch (const toml::parse_error &problem) {
-			throw InputError("--set {}: {}", text, problem.description());
-		}
-	}
-}
-
-/// Paths are relative to the file that names them, and the merged file lies elsewhere: texts that name an existing file become absolute.
-void anchorPaths(toml::table &table, const fs::path &folder)
-{
-	for (auto &&[key, value] : table) {
-		if (toml::table *inner = value.as_table()) anchorPaths(*inner, folder);
-		toml::value<std::string> *text = value.as_string();
-		if (!text || text->get().find_first_of("/.") == std::string::npos) continue;
-		std::error_code ignored;
-		if (const fs::path path = folder / text->get(); fs::exists(path, ignored)) *text = path.string();
-	}
-}
-
-void merge(toml::table &into, const toml::table &from)
-{
-	for (const auto &[key, value] : from) {
-		toml::table *target = into[key.str()].as_table();
-		if (target && value.is_table())
-			merge(*target, *value.as_table());
-		else
-			into.insert_or_assign(key.str(), value);
-	}
 }
 
 } // namespace
@@ -115,28 +84,15 @@ fs::path findConfig(const fs::path &given)
 {
 	if (!given.empty()) return fs::absolute(given);
 	if (const char *named = std::getenv("ARIFT_CONFIG"); named && *named) return fs::absolute(named);
-	const fs::path usual = ipc::configDirectory() / "config.toml";
+	const fs::path usual = configDirectory() / "config.toml";
 	return fs::exists(usual) ? usual : fs::path();
 }
 
-Config readConfig(const fs::path &file, const std::vector<std::string> &overrides, const fs::path &mergedFile)
+Config readConfig(const fs::path &file, const std::vector<std::string> &overrides)
 {
-	toml::table table = file.empty() ? toml::table() : parseTomlFile(file);
-	Config config = decode(table, file.string());
-	config.file = file;
-	if (overrides.empty()) return config;
-	if (!file.empty()) anchorPaths(table, fs::absolute(file).parent_path());
-	for (const std::string &text : overrides) {
-		toml::table override = parseOverride(text);
-		anchorPaths(override, fs::current_path());
-		merge(table, override);
-		config = decode(table, "--set " + text);
-	}
-	std::ofstream merged(mergedFile);
-	merged << table << '\n';
-	if (!merged.flush()) throw InputError("{}: cannot be written", mergedFile.string());
-	config.file = mergedFile;
-	return config;
+	const auto document = file.empty() ? std::make_shared<TomlDocument>() : std::make_shared<TomlDocument>(file);
+	for (const std::string &setting : overrides) document->set(setting);
+	return decode(document);
 }
 
 const char *nameOf(ClockMode mode) { return mode == ClockMode::real ? "real" : mode == ClockMode::scaled ? "scaled" : "stepped"; }

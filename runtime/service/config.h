@@ -2,21 +2,24 @@
 #pragma once
 #include "runtime/base/xr.h"
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace arift
 {
 
+class TomlDocument;
+
 enum class ClockMode { real, scaled, stepped };
 enum class TargetKind { automatic, offscreen, window };
 
 struct Config {
-	std::filesystem::path file; ///< what drivers read their own tables from: the file with overrides merged in; may be empty
+	std::shared_ptr<const TomlDocument> document; ///< all of it, drivers' tables too; null: everything at its default
 
 	std::string driver = "auto";                   ///< [headset] driver
 	std::string rig = "arift";                     ///< [headset] rig: a name in calib/rigs, a path, or "recording"
-	std::filesystem::path recording;               ///< [replay] recording, where the driver is "replay"
+	std::filesystem::path recording;               ///< [replay] recording
 	ClockMode clock = ClockMode::real;             ///< [clock] mode
 	double rate = 1;                               ///< [clock] rate, scaled only
 	double passthroughDistance = 2;                ///< [passthrough] distance, metres
@@ -31,9 +34,9 @@ struct Config {
 std::filesystem::path findConfig(const std::filesystem::path &given);
 
 /// Reads `file` (may be empty: everything at its default) with `overrides` ("clock.mode=stepped", values as in TOML, quotes optional) above
-/// it. Throws InputError with file, line, value and what was expected; unknown keys are errors. Where there are overrides, the merged file
-/// is written to `mergedFile` for the drivers.
-Config readConfig(const std::filesystem::path &file, const std::vector<std::string> &overrides, const std::filesystem::path &mergedFile);
+/// it; relative paths begin beside the file, those of overrides at the working directory. Throws InputError with file and line or override,
+/// value and what was expected; unknown keys are errors, in the tables of drivers that are not used too.
+Config readConfig(const std::filesystem::path &file, const std::vector<std::string> &overrides);
 
 const char *nameOf(ClockMode mode);
 

@@ -57,7 +57,8 @@ void setViews(ipc::ViewTable &views, const Config &config, const Rig &rig)
 {
 	views.eyeInHead = rig.eyeInHead;
 	views.cameraInHead = rig.eyeInHead; // without cameras the views are the eyes at every offset
-	for (size_t eye = 0; eye < std::min<size_t>(rig.cameras.size(), 2); ++eye) views.cameraInHead[eye] = rig.cameras[eye].cameraInHead;
+	for (size_t eye = 0; eye < 2; ++eye)
+		if (const RigCamera *camera = rig.cameraFor(eye)) views.cameraInHead[eye] = camera->cameraInHead;
 	views.fov = {fovOf(rig, Eye::left), fovOf(rig, Eye::right)};
 	views.viewOffset = float(config.viewOffset);
 	views.pivotInHead = rig.pivotInHead;
@@ -104,7 +105,8 @@ System::System(World &world)
 										 renderer_->frameAllocator());
 	auto target = makeTarget(config_, window_, device_, world.clock, rig_);
 	log::info("{} with rig \"{}\" on {}, {}", driver_->name(), rig_.name, device_.identity().name, target->name());
-	const Surroundings surroundings{world.clock, rig_, PoseHistory(*world.poses), *world.system, {&feeds_[0], &feeds_[1]}};
+	CameraFeed *const right = &feeds_[rig_.cameras.size() == 1 ? 0 : 1]; // the only camera's images and timing are those of both eyes
+	const Surroundings surroundings{world.clock, rig_, PoseHistory(*world.poses), *world.system, {&feeds_[0], right}};
 	compositor_ =
 		std::make_unique<Compositor>(surroundings, Pacer(pacingOf(rig_), world.clock.now()), makePanel(*renderer_, std::move(target)));
 	compositor_->setPassthroughDistance(config_.passthroughDistance);

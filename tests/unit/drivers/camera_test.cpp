@@ -2,6 +2,7 @@
 #include "drivers/played_camera.h"
 #include "drivers/registry.h"
 #include "runtime/base/error.h"
+#include "tests/unit/drivers/configuration.h"
 #include "tests/unit/drivers/support.h"
 #include <gtest/gtest.h>
 #include <thread>
@@ -48,9 +49,9 @@ struct Simulation {
 	void sleep(XrDuration duration) { clock->sleepUntil(clock->now() + duration, stop.get_token()); }
 };
 
-std::string settingsFile(const test::TemporaryFolder &folder, const std::string &settings)
+std::shared_ptr<const TomlDocument> settingsFile(const test::TemporaryFolder &folder, const std::string &settings)
 {
-	return folder.write("config.toml", "[synthetic]\n" + settings).string();
+	return test::documentOf(folder.write("config.toml", "[synthetic]\n" + settings));
 }
 
 } // namespace
@@ -213,4 +214,21 @@ TEST(Registry, MakesDriversByName)
 	EXPECT_THROW(makeDriver("replay", context), InputError) << "no recording named";
 	EXPECT_EQ(makeDriver("synthetic", context)->openCamera(0, makeHostFrameBuffer), nullptr);
 	EXPECT_NE(makeDriver("synthetic", context)->openTracker(), nullptr);
+}
+
+TEST(Registry, ChecksEveryDriversTable)
+{
+	const test::TemporaryFolder folder;
+	const auto check = [&](const std::string &text) -> std::string {
+		try {
+			checkDriverSettings(test::documentOf(folder.write("config.toml", text)));
+		} catch (const InputError &error) {
+			return error.what();
+		}
+		return "";
+	};
+	EXPECT_EQ(check(""), "");
+	EXPECT_EQ(check("[replay]\nloop = false\n[synthetic]\nmotion = 'file'\nmotion_file = 'nowhere.csv'\n"), "") << "opens nothing";
+	EXPECT_NE(check("[replay]\nlop = false\n").find(":2: unknown key replay.lop"), std::string::npos);
+	EXPECT_NE(check("[synthetic]\nsample_rate = 300\n").find(":2: synthetic.sample_rate = 300"), std::string::npos);
 }

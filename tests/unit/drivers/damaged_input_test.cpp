@@ -4,6 +4,7 @@
 #include "drivers/synthetic/settings.h"
 #include "drivers/trajectory.h"
 #include "runtime/base/error.h"
+#include "tests/unit/drivers/configuration.h"
 #include "tests/unit/drivers/recordings.h"
 #include <cstring>
 #include <fstream>
@@ -47,7 +48,8 @@ std::string patched(std::string bytes, size_t at, const auto &value)
 std::string replayComplaint(const TemporaryFolder &folder)
 {
 	const auto clock = makeSteppedClock(0);
-	return complaint([&] { makeDriver("replay", {.clock = *clock, .configuration = replayConfiguration(folder, folder.path())}); });
+	return complaint(
+		[&] { makeDriver("replay", {.clock = *clock, .configuration = documentOf(replayConfiguration(folder, folder.path()))}); });
 }
 
 } // namespace
@@ -139,7 +141,7 @@ TEST(DamagedInput, AnImageThatBreaksOffIsCountedAndDropped)
 	const Clock::Hold hold(*clock);
 	const auto image = folder.path() / "mav0/cam0/data/1403715273312142976.png";
 	std::filesystem::resize_file(image, std::filesystem::file_size(image) - 18); // within the pixels
-	const auto driver = makeDriver("replay", {.clock = *clock, .configuration = replayConfiguration(folder, folder.path())});
+	const auto driver = makeDriver("replay", {.clock = *clock, .configuration = documentOf(replayConfiguration(folder, folder.path()))});
 	const auto camera = driver->openCamera(0, makeHostFrameBuffer);
 	std::stop_source stop;
 	CameraFrame frame;
@@ -193,21 +195,22 @@ TEST(DamagedInput, SyntheticSettings)
 	const TemporaryFolder folder;
 	for (const auto &c : cases) {
 		const auto file = folder.write("config.toml", std::string("[synthetic]\n") + c.settings + "\n");
-		expectComplaint(complaint([&] { synthetic::readSettings(file); }), {"config.toml:", c.expected});
+		expectComplaint(complaint([&] { synthetic::readSettings(documentOf(file)); }), {"config.toml:", c.expected});
 	}
 	const auto good =
 		folder.write("good.toml", "[other]\nx = 1\n[synthetic]\nmotion = \"constant\"\nrate = [0, 90, 0]\ngyro_bias = [1, 0, 0]\n"
 								  "markers = [{position = [0, 0, -1], radius = 0.1}]\n");
-	const synthetic::Settings settings = synthetic::readSettings(good);
+	const synthetic::Settings settings = synthetic::readSettings(documentOf(good));
 	EXPECT_NEAR(settings.rate.y, M_PI / 2, 1e-12);
 	EXPECT_NEAR(settings.errors.angularVelocityBias.x, M_PI / 180, 1e-12);
 	EXPECT_EQ(settings.markers.size(), 1u);
 	const auto clock = makeSteppedClock(0);
 	const auto truth = folder.write("truth.toml", "[synthetic]\ntruth = \"/nowhere/truth.csv\"\n");
-	expectComplaint(complaint([&] { makeDriver("synthetic", {.clock = *clock, .configuration = truth})->openTracker(); }),
+	expectComplaint(complaint([&] { makeDriver("synthetic", {.clock = *clock, .configuration = documentOf(truth)})->openTracker(); }),
 					{"/nowhere/truth.csv"});
 	const auto motion = folder.write("motion.toml", "[synthetic]\nmotion = \"file\"\nmotion_file = \"none.csv\"\n");
-	expectComplaint(complaint([&] { makeDriver("synthetic", {.clock = *clock, .configuration = motion}); }), {"none.csv", "no such file"});
+	expectComplaint(complaint([&] { makeDriver("synthetic", {.clock = *clock, .configuration = documentOf(motion)}); }),
+					{"motion.toml:3: synthetic.motion_file = 'none.csv'", (folder.path() / "none.csv").c_str()});
 }
 
 TEST(DamagedInput, ReplaySettings)
@@ -216,11 +219,12 @@ TEST(DamagedInput, ReplaySettings)
 	const auto clock = makeSteppedClock(0);
 	const auto message = [&](const char *content) {
 		const auto file = folder.write("config.toml", content);
-		return complaint([&] { makeDriver("replay", {.clock = *clock, .configuration = file}); });
+		return complaint([&] { makeDriver("replay", {.clock = *clock, .configuration = documentOf(file)}); });
 	};
 	expectComplaint(message("[synthetic]\n"), {"config.toml", "replay"});
 	expectComplaint(message("[replay]\n"), {"config.toml:1", "replay.recording is missing"});
 	expectComplaint(message("[replay]\nrecording = \"nowhere\"\n"), {"config.toml:2", "nowhere", "EuRoC"});
+	expectComplaint(complaint([&] { makeDriver("replay", {.clock = *clock}); }), {"configuration: replay.recording is missing"});
 	expectComplaint(message("[replay]\nrecording = \"config.toml\"\nspeed = 2\n"), {"unknown key replay.speed"});
 	expectComplaint(message("[replay]\nrecording = \"config.toml\"\n"), {"config.toml", "expected"});
 }

@@ -3,6 +3,7 @@
 #include "drivers/replay/brd_file.h"
 #include "runtime/base/error.h"
 #include "tests/common/shared_data.h"
+#include "tests/unit/drivers/configuration.h"
 #include "tests/unit/drivers/recordings.h"
 #include <gtest/gtest.h>
 
@@ -21,8 +22,9 @@ struct Playing {
 
 	explicit Playing(const std::filesystem::path &configuration, const CameraGeometry &geometry = {},
 					 const XrPosef &imuInHead = identityPose)
-		: driver(makeDriver("replay",
-							{.clock = *clock, .configuration = configuration, .geometry = {geometry, geometry}, .imuInHead = imuInHead}))
+		: driver(makeDriver(
+			  "replay",
+			  {.clock = *clock, .configuration = documentOf(configuration), .geometry = {geometry, geometry}, .imuInHead = imuInHead}))
 	{
 	}
 	Outcome read(Camera &camera, CameraFrame &frame) { return camera.read(frame, clock->now() + second, stop.get_token()); }
@@ -101,6 +103,58 @@ TEST(Replay, EndsWhereItIsNotToLoop)
 	ASSERT_EQ(playing.read(*camera, frame), Outcome::ready);
 	EXPECT_EQ(frame.sequence, 4u);
 	EXPECT_EQ(playing.read(*camera, frame), Outcome::lost);
+	EXPECT_EQ(playing.driver->openTracker(), nullptr) << "opened again, it would be lost again";
+	EXPECT_EQ(playing.driver->openCamera(0, makeHostFrameBuffer), nullptr);
+}
+
+TEST(Replay, EachDeviceIsGoneWithItsOwnEnd)
+{
+	const TemporaryFolder folder;
+	writeEuroc(folder.path());
+	Playing playing(replayConfiguration(folder, folder.path(), "loop = false\n"));
+	const auto camera = playing.driver->openCamera(0, makeHostFrameBuffer);
+	CameraFrame frame;
+	while (playing.read(*camera, frame) == Outcome::ready)
+		EXPECT_NE(playing.driver->openCamera(0, makeHostFrameBuffer) == nullptr, frame.sequence < 4) << frame.sequence;
+	EXPECT_EQ(playing.driver->openCamera(1, makeHostFrameBuffer), nullptr);
+	EXPECT_NE(playing.driver->openTracker(), nullptr) << "it has samples after the last image";
+}
+
+TEST(Replay, ABrdFilesTrackerIsGoneAtItsEnd)
+{
+	const TemporaryFolder folder;
+	Playing playing(replayConfiguration(folder, folder.write("walk.brd", brdFile(nodding(20))), "loop = false\n"));
+	const auto tracker = playing.driver->openTracker();
+	ImuReport report;
+	int samples = 0;
+	while (playing.read(*tracker, report) == Outcome::ready) samples++;
+	EXPECT_EQ(samples, 19);
+	EXPECT_EQ(playing.driver->openTracker(), nullptr);
+}
+
+TEST(Replay, TheSensorsMayLieInTheRecordingsFolderItself)
+{
+	const TemporaryFolder folder;
+	writeEuroc(folder.path());
+	std::filesystem::rename(folder.path() / "mav0", folder.path() / "walk");
+	for (const char *path : {"walk", "walk/"}) {
+		Playing playing(replayConfiguration(folder, path));
+		EXPECT_EQ(playing.driver->name(), "recording walk");
+		EXPECT_NE(playing.driver->openCamera(1, makeHostFrameBuffer), nullptr);
+	}
+	writeEuroc(folder.path() / "hike");
+	for (const char *path : {"hike", "hike/mav0", "hike/mav0/"})
+		EXPECT_EQ(Playing(replayConfiguration(folder, path)).driver->name(), "recording hike");
+}
+
+TEST(Replay, AMonocularRecordingHasNoRightCamera)
+{
+	const TemporaryFolder folder;
+	writeEuroc(folder.path());
+	std::filesystem::remove_all(folder.path() / "mav0/cam1");
+	Playing playing(replayConfiguration(folder, folder.path()));
+	EXPECT_NE(playing.driver->openCamera(0, makeHostFrameBuffer), nullptr);
+	EXPECT_EQ(playing.driver->openCamera(1, makeHostFrameBuffer), nullptr);
 }
 
 TEST(Replay, ABrdFilesSamplesAreTurnedIntoTheTrackersAxes)

@@ -1,10 +1,13 @@
 // The commented configuration tells the truth: every setting in it is read by somebody, and stands there with its default.
 #include "drivers/synthetic/settings.h"
+#include "runtime/base/toml_document.h"
 #include "runtime/service/config.h"
 #include <algorithm>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace arift
@@ -30,8 +33,8 @@ std::filesystem::path uncommented(const std::string &name, const std::vector<std
 
 TEST(DefaultConfiguration, ReadsAsTheDefaults)
 {
-	const Config given = readConfig(uncommented("config.toml", {"rate"}), {}, {});
-	const Config defaults = readConfig({}, {}, {});
+	const Config given = readConfig(uncommented("config.toml", {"rate"}), {});
+	const Config defaults = readConfig({}, {});
 	EXPECT_EQ(given.driver, defaults.driver);
 	EXPECT_EQ(given.rig, defaults.rig);
 	EXPECT_EQ(given.clock, defaults.clock);
@@ -43,7 +46,7 @@ TEST(DefaultConfiguration, ReadsAsTheDefaults)
 
 TEST(DefaultConfiguration, TheSyntheticHeadsetsSettingsAreItsDefaults)
 {
-	const synthetic::Settings given = synthetic::readSettings(uncommented("synthetic.toml", {"motion_file"}));
+	const synthetic::Settings given = synthetic::readSettings(std::make_shared<TomlDocument>(uncommented("synthetic.toml", {})));
 	const synthetic::Settings defaults;
 	EXPECT_EQ(given.motion, defaults.motion);
 	EXPECT_EQ(given.motionDelay, defaults.motionDelay);
@@ -60,6 +63,44 @@ TEST(DefaultConfiguration, TheSyntheticHeadsetsSettingsAreItsDefaults)
 	EXPECT_EQ(given.cameraPhase, defaults.cameraPhase);
 	EXPECT_EQ(given.cameraJitter, defaults.cameraJitter);
 	EXPECT_EQ(given.blackLevel, defaults.blackLevel);
+	EXPECT_EQ(given.motionFile, defaults.motionFile);
+	EXPECT_EQ(given.truth, defaults.truth);
+	EXPECT_EQ(given.markers.size(), defaults.markers.size());
+}
+
+/// What may stand at a place of the configuration: the complaint about a key that may not says it.
+std::vector<std::string> keysOf(const std::string &prefix)
+{
+	try {
+		readConfig({}, {prefix + "no_such_key=1"});
+	} catch (const InputError &error) {
+		const std::string message = error.what(), before = "expected one of: ";
+		std::istringstream list(message.substr(message.find(before) + before.size()));
+		std::vector<std::string> keys;
+		for (std::string key; std::getline(list >> std::ws, key, ',');) keys.push_back(key);
+		return keys;
+	}
+	ADD_FAILURE() << prefix;
+	return {};
+}
+
+TEST(DefaultConfiguration, ListsEverySetting)
+{
+	std::map<std::string, std::set<std::string>> listed;
+	std::ifstream in(MANIFESTS "/config.toml");
+	std::string section;
+	static const std::regex header("^\\[([a-z_]+)\\]"), setting("^#([a-z_]+) = ");
+	for (std::string line; std::getline(in, line);) {
+		std::smatch match;
+		if (std::regex_search(line, match, header)) section = match[1];
+		if (std::regex_search(line, match, setting)) listed[section].insert(match[1]);
+	}
+	const std::vector<std::string> sections = keysOf("");
+	EXPECT_EQ(sections.size(), 6u);
+	for (const std::string &name : sections) {
+		const std::vector<std::string> keys = keysOf(name + ".");
+		EXPECT_EQ(listed[name], std::set<std::string>(keys.begin(), keys.end())) << name;
+	}
 }
 
 } // namespace

@@ -269,7 +269,7 @@ TEST(CameraModel, RefusesNumbersThatAreNoCamera)
 		{"centre at column", 752, 240, wideOCam},
 		{"a0 = 206.5", 752, 480, ocam([](OCam &c) { c.direct[0] = 206.5; })},
 		{"without polynomial", 752, 480, ocam([](OCam &c) { c.direct = {}; })},
-		{"stretch c = 1.2", 752, 480, ocam([](OCam &c) { c.c = 1.2; })},
+		{"affine c = 1.2", 752, 480, ocam([](OCam &c) { c.c = 1.2; })},
 		{"d = 0.2", 752, 480, ocam([](OCam &c) { c.d = 0.2; })},
 		{"direct polynomial holds nan", 752, 480, ocam([&](OCam &c) { c.direct[2] = nan; })},
 		{"12.871 px on the axis", 752, 480, OCam{{}, {725.740198, 580.959756, 188.838455, 105.465531, 27.232993, 2.433748}, 240, 376}},

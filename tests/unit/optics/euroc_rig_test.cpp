@@ -65,6 +65,32 @@ TEST(EurocRig, PutsTheHeadMidwayBetweenTheCameras)
 	}
 }
 
+TEST(EurocRig, IsFoundWhereverTheRecordingIsPlayedFrom)
+{
+	const tests::Scratch scratch;
+	writeRecording(scratch);
+	const std::string name = scratch.folder().filename().string();
+	for (const char *end : {"", "/", "/mav0", "/mav0/"})
+		EXPECT_EQ(rigFromEuroc(scratch.folder().string() + end).name, "EuRoC recording " + name);
+	std::filesystem::rename(scratch.folder() / "mav0", scratch.folder() / "MH_01");
+	for (const char *end : {"/MH_01", "/MH_01/"}) EXPECT_EQ(rigFromEuroc(scratch.folder().string() + end).name, "EuRoC recording MH_01");
+}
+
+TEST(EurocRig, AMonocularRecordingHasOneCameraForBothEyes)
+{
+	const tests::Scratch scratch;
+	writeRecording(scratch);
+	std::filesystem::remove_all(scratch.folder() / "mav0/cam1");
+	const Rig rig = rigFromEuroc(scratch.folder());
+	ASSERT_EQ(rig.cameras.size(), 1u);
+	expectNear(rig.cameras[0].cameraInHead.position, {0, 0, 0});
+	EXPECT_NEAR(angleBetween(rig.cameras[0].cameraInHead.orientation, identityOrientation), 0, 1e-3);
+	expectNear(rotate(rig.imu.imuInHead, {1, 0, 0}), {0, 1, 0});
+	EXPECT_EQ(rig.cameraFor(0), &rig.cameras[0]);
+	EXPECT_EQ(rig.cameraFor(1), &rig.cameras[0]);
+	EXPECT_EQ(Rig().cameraFor(1), nullptr);
+}
+
 TEST(EurocRig, EquidistantLensesAreKannalaBrandt)
 {
 	const tests::Scratch scratch;

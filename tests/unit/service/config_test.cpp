@@ -1,3 +1,4 @@
+#include "drivers/synthetic/settings.h"
 #include "runtime/base/error.h"
 #include "runtime/service/config.h"
 #include <fstream>
@@ -24,7 +25,7 @@ protected:
 	{
 		const fs::path file = root_ / "config.toml";
 		std::ofstream(file) << text;
-		return readConfig(file, overrides, root_ / "merged.toml");
+		return readConfig(file, overrides);
 	}
 	std::string problem(const std::string &text, const std::vector<std::string> &overrides = {})
 	{
@@ -57,7 +58,9 @@ blend_modes = ["alpha_blend", "opaque"]
 [compositor]
 target = "offscreen"
 [synthetic]
-anything = "the driver checks it"
+motion = "rest"
+[replay]
+recording = "walk"
 )");
 	EXPECT_EQ(config.driver, "synthetic");
 	EXPECT_EQ(config.rig, "other");
@@ -67,7 +70,7 @@ anything = "the driver checks it"
 	EXPECT_EQ(config.viewOffset, 0);
 	EXPECT_EQ(config.blendModes, (std::vector{XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, XR_ENVIRONMENT_BLEND_MODE_OPAQUE}));
 	EXPECT_EQ(config.target, TargetKind::offscreen);
-	EXPECT_EQ(config.file, root_ / "config.toml");
+	EXPECT_EQ(config.recording, root_ / "walk");
 }
 
 TEST_F(ConfigFile, AnEmptyFileIsTheDefaults)
@@ -89,8 +92,14 @@ TEST_F(ConfigFile, ComplaintsNamePlaceValueAndWhatWasExpected)
 		{"[passthrough]\nview_offset = 'eye'", "config.toml:2: passthrough.view_offset = 'eye', expected a number from 0 to 1"},
 		{"[clock]\nmode = 'fast'", "config.toml:2: clock.mode = 'fast', expected one of \"real\", \"scaled\", \"stepped\""},
 		{"[clock]\nmode = 'real'\nrate = 2", "config.toml:3: clock.rate = 2, expected no rate unless clock.mode = \"scaled\""},
-		{"[headset]\ndrive = 'dk1'", "config.toml:2: unknown key headset.drive = 'dk1'"},
-		{"\n[pass_through]\n", "config.toml:2: unknown key pass_through = (a table)"},
+		{"[headset]\ndrive = 'dk1'", "config.toml:2: unknown key headset.drive = 'dk1', expected one of: driver, rig"},
+		{"\n[pass_through]\n", "config.toml:2: unknown key pass_through = (a table), expected one of: clock, compositor, headset, "
+							   "passthrough, replay, synthetic"},
+		{"[dk1]\n",
+		 "config.toml:1: unknown key dk1 = (a table), expected one of: clock, compositor, headset, passthrough, replay, synthetic"},
+		{"[headset]\ndriver = 'dk1'", "config.toml:2: headset.driver = 'dk1', expected one of \"auto\", \"synthetic\", \"replay\""},
+		{"[headset]\ndriver = 'synthetic'\n[replay]\nlop = true",
+		 "config.toml:4: unknown key replay.lop = true, expected one of: loop, recording"},
 		{"headset = 3", "config.toml:1: headset = 3, expected a table"},
 	};
 	for (const auto &[text, complaint] : cases) EXPECT_EQ(problem(text), complaint) << text;
@@ -111,15 +120,37 @@ TEST_F(ConfigFile, OverridesStandAboveTheFile)
 	EXPECT_EQ(config.blendModes.size(), 1u);
 }
 
-TEST_F(ConfigFile, DriversFindOverridesInTheMergedFile)
+TEST_F(ConfigFile, DriversReadOverridesToo)
 {
-	std::ofstream(root_ / "path.csv") << "";
-	const Config config = read("[synthetic]\nmotion_file = 'path.csv'\nseed = 1", {"synthetic.seed=7"});
-	EXPECT_EQ(config.file, root_ / "merged.toml");
-	std::stringstream merged;
-	merged << std::ifstream(config.file).rdbuf();
-	EXPECT_NE(merged.str().find("seed = 7"), std::string::npos) << merged.str();
-	EXPECT_NE(merged.str().find((root_ / "path.csv").string()), std::string::npos) << "a relative path keeps its meaning: " << merged.str();
+	const Config config = read("[synthetic]\nmotion_file = 'path'\nseed = 1", {"synthetic.seed=7"});
+	const synthetic::Settings settings = synthetic::readSettings(config.document);
+	EXPECT_EQ(settings.seed, 7u);
+	EXPECT_EQ(settings.motionFile, root_ / "path") << "an override leaves the rest of the table as it is";
+}
+
+TEST_F(ConfigFile, PathsBeginWhereTheyAreNamed)
+{
+	const std::string paths = "[replay]\nrecording = 'EuRoC'\n[synthetic]\nmotion_file = '../motion'\ntruth = 'truth.csv'";
+	for (const std::vector<std::string> &overrides : {std::vector<std::string>{}, {"clock.mode=stepped"}}) {
+		const Config config = read(paths, overrides);
+		const synthetic::Settings settings = synthetic::readSettings(config.document);
+		EXPECT_EQ(config.recording, root_ / "EuRoC");
+		EXPECT_EQ(settings.motionFile, root_ / "../motion");
+		EXPECT_EQ(settings.truth, root_ / "truth.csv");
+	}
+	const Config config = read(paths, {"replay.recording=walk", "synthetic.truth=/tmp/truth"});
+	EXPECT_EQ(config.recording, fs::current_path() / "walk");
+	EXPECT_EQ(synthetic::readSettings(config.document).truth, "/tmp/truth");
+}
+
+TEST_F(ConfigFile, EveryValueIsBlamedOnThePlaceWhereItStands)
+{
+	const std::string wrong = "synthetic.sample_rate = 300, expected 250, 500 or 1000";
+	EXPECT_EQ(problem("[clock]\nmode = 'real'", {"synthetic.sample_rate=300"}), "--set synthetic.sample_rate=300: " + wrong);
+	EXPECT_EQ(problem("\n\n[synthetic]\nsample_rate = 300", {"clock.mode=stepped", "synthetic.seed=2"}), "config.toml:4: " + wrong);
+	EXPECT_EQ(problem("[synthetic]\nmarkers = 3", {"headset={}"}), "config.toml:2: synthetic.markers = 3, expected an array of tables");
+	EXPECT_EQ(problem("", {"synthetic.markers=[{position=[0,0,-1]}]"}),
+			  "--set synthetic.markers=[{position=[0,0,-1]}]: synthetic.markers[0].radius is missing, expected a number from 0.001 to 1");
 }
 
 TEST_F(ConfigFile, WrongOverridesAreNamed)
@@ -128,6 +159,9 @@ TEST_F(ConfigFile, WrongOverridesAreNamed)
 	EXPECT_EQ(problem("", {"clock.mode=fast"}),
 			  "--set clock.mode=fast: clock.mode = 'fast', expected one of \"real\", \"scaled\", \"stepped\"");
 	EXPECT_TRUE(problem("", {"clock.speed=1"}).starts_with("--set clock.speed=1: unknown key clock.speed"));
+	EXPECT_EQ(problem("", {"#=1"}), "--set #=1: expected one KEY.PATH=VALUE");
+	EXPECT_EQ(problem("", {"a=1\nb=2"}), "--set a=1\nb=2: expected one KEY.PATH=VALUE");
+	EXPECT_EQ(problem("", {"headset=3"}), "--set headset=3: headset = 3, expected a table");
 }
 
-TEST_F(ConfigFile, AMissingFileIsNamed) { EXPECT_THROW(readConfig(root_ / "none.toml", {}, root_ / "merged.toml"), InputError); }
+TEST_F(ConfigFile, AMissingFileIsNamed) { EXPECT_THROW(readConfig(root_ / "none.toml", {}), InputError); }
