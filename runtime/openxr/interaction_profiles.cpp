@@ -98,7 +98,8 @@ constexpr InteractionProfile profiles[] = {
 /// Whether one word of the components is what `rest` (the path after the user path) asks for.
 bool matches(std::string_view component, std::string_view rest)
 {
-	const std::string_view folder = component.starts_with('/') ? "" : "/input/";
+	if (component.starts_with('/')) return component == rest;
+	constexpr std::string_view folder = "/input/";
 	if (!rest.starts_with(folder)) return false;
 	rest.remove_prefix(folder.size());
 	// "Input Source Paths": the last component may be left out, the runtime then chooses.

@@ -56,6 +56,8 @@ TEST(InteractionProfiles, WhatTheyHave)
 	EXPECT_TRUE(touch.has("/user/hand/right/input/trigger/value", false));
 	EXPECT_TRUE(touch.has("/user/hand/right/input/trigger", false)) << "the component may be left out";
 	EXPECT_FALSE(touch.has("/user/hand/right/input/trig", false));
+	for (const char *folder : {"/user/hand/right", "/user/hand/right/input", "/user/hand/right/output"})
+		EXPECT_FALSE(touch.has(folder, true)) << folder << " is no input or output";
 	EXPECT_FALSE(touch.has("/user/hand/right/input/trigger/click", false));
 	EXPECT_TRUE(touch.has("/user/hand/left/output/haptic", false));
 	EXPECT_FALSE(touch.has("/user/hand/left/input/output/haptic", false));

@@ -51,7 +51,6 @@ PhysicalDeviceId identify(const VulkanInstanceApi &vulkan, VkPhysicalDevice devi
 		vulkan.GetPhysicalDeviceProperties(device, &properties.properties);
 	std::ranges::copy(uuids.deviceUUID, id.deviceUuid.begin());
 	std::ranges::copy(uuids.driverUUID, id.driverUuid.begin());
-	id.type = properties.properties.deviceType;
 	return id;
 }
 
@@ -61,13 +60,11 @@ VkPhysicalDevice choosePhysicalDevice(const VulkanInstanceApi &vulkan, VkInstanc
 		return vulkan.EnumeratePhysicalDevices(instance, count, elements);
 	});
 	if (devices.empty()) throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "Vulkan has no device");
-	const auto rank = [&](VkPhysicalDevice device) {
+	const auto own = std::ranges::find_if(devices, [&](VkPhysicalDevice device) {
 		const PhysicalDeviceId id = identify(vulkan, device);
-		if (id.driverUuid != welcome.driverUuid) return 0;
-		if (id.deviceUuid == welcome.deviceUuid) return 2;
-		return id.type == welcome.deviceType ? 1 : 0;
-	};
-	return *std::ranges::max_element(devices, {}, rank);
+		return id.driverUuid == welcome.driverUuid && id.deviceUuid == welcome.deviceUuid;
+	});
+	return own != devices.end() ? *own : devices.front();
 }
 
 std::vector<const char *> neededInstanceExtensions(PFN_vkGetInstanceProcAddr loader)

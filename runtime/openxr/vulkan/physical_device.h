@@ -10,12 +10,11 @@ namespace arift::openxr
 
 struct PhysicalDeviceId {
 	std::array<uint8_t, 16> deviceUuid{}, driverUuid{}; ///< zero where the instance cannot say
-	uint32_t type = 0;                                  ///< VkPhysicalDeviceType
 };
 PhysicalDeviceId identify(const VulkanInstanceApi &vulkan, VkPhysicalDevice device);
 
-/// The service's own device; else one of the same driver and type (a software driver's device UUID changes with its version); else the
-/// first. Throws XR_ERROR_GRAPHICS_DEVICE_INVALID where there is none.
+/// The service's own device; else the first, with which it will make no session. Throws XR_ERROR_GRAPHICS_DEVICE_INVALID where there is
+/// none.
 VkPhysicalDevice choosePhysicalDevice(const VulkanInstanceApi &vulkan, VkInstance instance, const ipc::Welcome &welcome);
 
 /// What the library needs beyond Vulkan 1.0: those of them that are there.
