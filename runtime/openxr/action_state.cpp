@@ -91,7 +91,7 @@ XrResult syncActions(Session &session, const XrActionsSyncInfo &info)
 		if (!set.core->subactionPaths.lock()->contains(active.subactionPath))
 			throw Error(XR_ERROR_PATH_UNSUPPORTED, "no action of \"{}\" was made with the subaction path {}", set.core->name, text);
 	}
-	session.instance.takeNews();
+	session.takeNews();
 	return focusResult(session);
 }
 

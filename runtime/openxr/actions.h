@@ -57,8 +57,9 @@ public:
 	/// Throws XR_ERROR_ACTIONSET_NOT_ATTACHED.
 	void requireAttached(const ActionSetCore &set)
 	{
-		for (const auto &attached : *attached_.lock())
-			if (attached.get() == &set) return;
+		const auto attached = attached_.lock();
+		for (const auto &other : *attached)
+			if (other.get() == &set) return;
 		throw Error(XR_ERROR_ACTIONSET_NOT_ATTACHED, "action set \"{}\" is not attached to the session", set.name);
 	}
 	bool hasAny() { return !attached_.lock()->empty(); }

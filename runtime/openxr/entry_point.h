@@ -63,6 +63,10 @@ template <HandleObject T> struct EvenIfLost {
 	T &operator*() const { return *object; }
 };
 
+template <typename P> constexpr bool isHandle = false;
+template <HandleObject T> constexpr bool isHandle<T &> = true;
+template <HandleObject T> constexpr bool isHandle<EvenIfLost<T>> = true;
+
 // ---- From<Parameter>: how many C arguments a parameter takes, and how it is made of them and checked
 
 template <typename P> struct From {
@@ -147,11 +151,19 @@ struct EntryPoint<name, XrResult (*)(Raw...), function> {
 		try {
 			return checked(std::tuple<Raw...>(raw...), std::index_sequence_for<Parameters...>{});
 		} catch (...) {
-			return report(name.text);
+			return report(name.text, handleIn(raw...));
 		}
 	}
 
 private:
+	/// The handle a function is called with, which is its first argument; 0 for a function without one.
+	static uint64_t handleIn(auto first, auto...)
+	{
+		if constexpr (isHandle<std::tuple_element_t<0, std::tuple<Parameters...>>>)
+			return reinterpret_cast<uint64_t>(first);
+		else
+			return 0;
+	}
 	template <size_t... i> static XrResult checked(const std::tuple<Raw...> &raw, std::index_sequence<i...>)
 	{
 		std::tuple<Parameters...> parameters{makeParameter<Parameters, firsts[i]>(raw)...}; // braces: left to right

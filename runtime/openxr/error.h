@@ -19,7 +19,8 @@ struct Error : std::runtime_error {
 const char *nameOf(XrResult result);
 const char *nameOf(XrStructureType type);
 
-/// The one catch site: turns the exception in flight into the result of `function` and says why in the log.
-XrResult report(const char *function) noexcept;
+/// The one catch site: turns the exception in flight into the result of `function` and says why, in the log and to the debug messengers of
+/// the instance that `handle` (0: none) belongs to.
+XrResult report(const char *function, uint64_t handle) noexcept;
 
 } // namespace arift::openxr

@@ -9,48 +9,62 @@ namespace
 
 /// How often a wait for the service looks whether it still lives (real time).
 constexpr XrDuration lookAround = 100 * millisecond;
+/// How long the service may leave a frame channel unread that is full (real time).
+constexpr XrDuration sendLimit = second;
 
 } // namespace
+
+void Session::loseFrames(const char *why)
+{
+	instance.service.noticeHangUp();
+	instance.requireAlive();
+	life_->lose();
+	throw Error(XR_ERROR_SESSION_LOST, "{}", why);
+}
+
+template <typename Message> void Session::sendFrame(const Message &message)
+{
+	switch (frames_->send(message, realTime() + sendLimit)) {
+	case ipc::Transfer::done: return;
+	case ipc::Transfer::timeout: loseFrames("arift-service does not read the frame channel");
+	default: loseFrames("the frame channel is closed");
+	}
+}
 
 ipc::FrameReady Session::askForFrame()
 {
 	// A stepped clock goes on when what the session submitted until now has come: the service is told how many that are.
-	const ipc::WaitFrame request{{ipc::MessageType::waitFrame, uint32_t(submitted_.load())}};
-	ipc::Transfer transfer = frames_->send(request, realTime() + second);
-	while (transfer == ipc::Transfer::done || transfer == ipc::Transfer::timeout) {
+	sendFrame(ipc::WaitFrame{{ipc::MessageType::waitFrame, uint32_t(submitted_.load())}});
+	for (ipc::Received received;;) {
+		const ipc::Transfer transfer = frames_->receive(received, realTime() + lookAround);
+		if (transfer != ipc::Transfer::done && transfer != ipc::Transfer::timeout) loseFrames("the frame channel is closed");
+		if (transfer == ipc::Transfer::done)
+			if (const auto ready = received.as<ipc::FrameReady>()) return *ready;
 		requireAlive();
-		ipc::Received received;
-		transfer = frames_->receive(received, realTime() + lookAround);
-		if (transfer != ipc::Transfer::done) continue;
-		if (const auto ready = received.as<ipc::FrameReady>()) return *ready;
 	}
-	instance.service.noticeHangUp();
-	if (!instance.service.isLost()) lose();
-	requireAlive();
-	throw Error(XR_ERROR_SESSION_LOST, "the frame channel is closed");
 }
 
 XrFrameState Session::waitFrame()
 {
 	{
-		auto life = life_.lock();
-		requireRunning(*life);
+		auto life = life_->lock();
+		life->requireRunning();
 		while (!life.waitFor({}, std::chrono::nanoseconds(lookAround), [](const Life &l) { return !l.facts.begun || l.order.mayWait(); }))
 			requireAlive();
-		requireRunning(*life);
+		life->requireRunning();
 		life->order.startWait();
 	}
 	try {
 		// A headless session is paced by the service as well: its clock may be a stepped one.
 		const ipc::FrameReady ready = askForFrame();
-		instance.takeNews();
-		life_.update([](Life &life) { life.order.finishWait(true); });
+		takeNews();
+		life_->change([](Life &life) { life.order.finishWait(true); });
 		const bool isShown = state() == XR_SESSION_STATE_VISIBLE || state() == XR_SESSION_STATE_FOCUSED;
 		return {.predictedDisplayTime = ready.predictedDisplayTime,
 				.predictedDisplayPeriod = ready.predictedDisplayPeriod,
 				.shouldRender = ready.shouldRender != 0 && isShown && graphics_};
 	} catch (...) {
-		life_.update([](Life &life) { life.order.finishWait(false); });
+		life_->change([](Life &life) { life.order.finishWait(false); });
 		throw;
 	}
 }
@@ -58,8 +72,8 @@ XrFrameState Session::waitFrame()
 bool Session::beginFrame()
 {
 	bool discarded = false;
-	life_.update([&](Life &life) {
-		requireRunning(life);
+	life_->change([&](Life &life) {
+		life.requireRunning();
 		discarded = life.order.begin();
 	});
 	return discarded;
@@ -68,8 +82,8 @@ bool Session::beginFrame()
 void Session::endFrame(const XrFrameEndInfo &info)
 {
 	{
-		auto life = life_.lock();
-		requireRunning(*life);
+		const auto life = life_->lock();
+		life->requireRunning();
 		life->order.requireBegun();
 	}
 	FrameSubmission frame(*this, info);
@@ -78,10 +92,9 @@ void Session::endFrame(const XrFrameEndInfo &info)
 		frame.noteUse();
 		submitter_->submit(frame.submission, std::move(frame.work));
 	}
-	life_.update([&](Life &life) {
+	life_->change([](Life &life) {
 		life.order.end();
 		life.facts.frameSynchronized = true;
-		settleLocked(life);
 	});
 }
 
@@ -89,7 +102,7 @@ void Session::relinquish(uint64_t frame)
 {
 	ipc::Relinquish message;
 	message.frame = frame;
-	frames_->send(message, realTime() + second);
+	sendFrame(message);
 }
 
 void waitFrame(Session &session, const XrFrameWaitInfo *, XrFrameState &state)

@@ -163,7 +163,7 @@ XrResult getInstanceProcAddr(XrInstance handle, const char *name, PFN_xrVoidFunc
 		// Without an instance most names are unknown as yet; with one, asking for what is not there is how applications find out.
 		return instance ? XR_ERROR_FUNCTION_UNSUPPORTED : XR_ERROR_HANDLE_INVALID;
 	} catch (...) {
-		return report("xrGetInstanceProcAddr");
+		return report("xrGetInstanceProcAddr", reinterpret_cast<uint64_t>(handle));
 	}
 }
 

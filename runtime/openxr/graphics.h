@@ -15,9 +15,14 @@ namespace arift::openxr
 class Completion
 {
 public:
+	enum class Outcome {
+		done,
+		notYet,
+		failed ///< it never will be: the device is lost
+	};
 	virtual ~Completion() = default;
-	/// Whether the work is finished, or was by the end of `limit` of real time. Any thread.
-	virtual bool wait(XrDuration limit) const = 0;
+	/// How the work stands when it is finished or `limit` of real time has passed. Any thread.
+	virtual Outcome wait(XrDuration limit) const = 0;
 };
 
 /// The images of one swapchain in the application's graphics API. Destroying them waits, within a limit, for the work on them.

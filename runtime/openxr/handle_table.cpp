@@ -43,6 +43,14 @@ Object &HandleTable::find(uint64_t handle, XrObjectType type) const
 	return *slot.object;
 }
 
+Object *HandleTable::findRoot(uint64_t handle, XrObjectType type) const
+{
+	uint32_t index = indexOf(handle);
+	if (handle == 0 || index >= slotCount || slots_[index].handle.load(std::memory_order_acquire) != handle) return nullptr;
+	while (slots_[index].parent != slotCount) index = slots_[index].parent;
+	return slots_[index].type == type ? slots_[index].object : nullptr;
+}
+
 std::vector<Object *> HandleTable::takeOut(const Object &object)
 {
 	std::lock_guard lock(mutex_);

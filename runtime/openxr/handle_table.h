@@ -58,6 +58,9 @@ public:
 		return static_cast<T &>(find(reinterpret_cast<uint64_t>(handle), HandleOf<std::remove_const_t<T>>::objectType));
 	}
 
+	/// What `handle` and all its ancestors lie below; null for what is no handle now, and where it is no T.
+	template <HandleObject T> T *rootOf(uint64_t handle) const { return static_cast<T *>(findRoot(handle, HandleOf<T>::objectType)); }
+
 	/// Destroys the object and all below it, youngest generation first.
 	void destroy(const Object &object);
 	/// As destroy, but the objects are only forgotten: in a forked child their threads do not exist and their sockets are the parent's.
@@ -77,6 +80,7 @@ private:
 
 	uint64_t put(Object *object, XrObjectType type, const Object *parent);
 	Object &find(uint64_t handle, XrObjectType type) const;
+	Object *findRoot(uint64_t handle, XrObjectType type) const;
 	std::vector<Object *> takeOut(const Object &object);
 
 	mutable std::mutex mutex_;

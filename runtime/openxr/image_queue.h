@@ -2,6 +2,7 @@
 // Management". Knows no pixels, no clock and no lock; Swapchain adds memory and waiting.
 #pragma once
 #include "runtime/openxr/error.h"
+#include <algorithm>
 #include <deque>
 #include <optional>
 #include <vector>
@@ -18,22 +19,21 @@ public:
 		for (uint32_t image = 0; image < imageCount; ++image) idle_.push_back(image);
 	}
 
-	/// An image becomes the application's: of the free ones the one released longest ago, or else of all of them.
+	/// The image to acquire next: of the free ones the one released longest ago, or else of all of them.
 	/// An image is free when the compositor holds no submission it was part of: those before frame `oldestHeld` are done with.
-	uint32_t acquire(uint64_t oldestHeld)
+	uint32_t toAcquire(uint64_t oldestHeld) const
 	{
 		if (idle_.empty()) throw Error(XR_ERROR_CALL_ORDER_INVALID, "all {} images are acquired already", lastFrame_.size());
 		if (isStatic_ && newest_) throw Error(XR_ERROR_CALL_ORDER_INVALID, "the image of a static swapchain is acquired only once");
-		auto chosen = idle_.begin();
-		for (auto image = idle_.begin(); image != idle_.end(); ++image)
-			if (isFree(*image, oldestHeld)) {
-				chosen = image;
-				break;
-			}
-		const uint32_t image = *chosen;
-		idle_.erase(chosen);
+		const auto found = std::ranges::find_if(idle_, [&](uint32_t image) { return isFree(image, oldestHeld); });
+		return found != idle_.end() ? *found : idle_.front();
+	}
+	/// The image that toAcquire() chose becomes the application's.
+	void acquire(uint32_t image)
+	{
+		if (std::erase(idle_, image) == 0)
+			throw Error(XR_ERROR_CALL_ORDER_INVALID, "image {} was acquired by another thread meanwhile", image);
 		acquired_.push_back(image);
-		return image;
 	}
 
 	/// The image that xrWaitSwapchainImage is about: the one acquired longest ago that was not waited for. Only one at once.

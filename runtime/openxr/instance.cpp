@@ -65,48 +65,16 @@ void Instance::requireSystem(XrSystemId system) const
 	if (system != theSystem || !hasSystem) throw Error(XR_ERROR_SYSTEM_INVALID, "{} is no system that xrGetSystem returned", system);
 }
 
-void Instance::setSession(Session *session)
+bool Instance::takeEvent(XrEventDataBuffer &event)
 {
-	std::lock_guard lock(newsMutex_);
-	session_ = session;
-}
-
-void Instance::takeNews()
-{
-	if (service.isLost()) return tellLoss();
-	const uint64_t written = service.client().eventCount.load(std::memory_order_acquire);
-	if (written == newsTaken_.load(std::memory_order_acquire)) return;
-	std::lock_guard lock(newsMutex_);
-	uint64_t taken = newsTaken_.load(std::memory_order_relaxed);
-	if (taken >= written) return; // another thread was faster
-	if (written - taken > ipc::ClientPage::eventSlots) {
-		events.push(
-			XrEventDataEventsLost{XR_TYPE_EVENT_DATA_EVENTS_LOST, nullptr, uint32_t(written - taken - ipc::ClientPage::eventSlots)});
-		taken = written - ipc::ClientPage::eventSlots;
-	}
-	for (; taken < written; ++taken)
-		if (const auto event = service.client().events[taken % ipc::ClientPage::eventSlots].read()) takeEvent(*event);
-	newsTaken_.store(written, std::memory_order_release);
-}
-
-void Instance::takeEvent(const ipc::Event &event)
-{
-	if (!session_ || (event.session != 0 && event.session != session_->id())) return; // 0: whichever there is
-	switch (event.type) {
-	case ipc::EventType::visibilityChanged: return session_->setVisibility(event.visible != 0, event.focused != 0);
-	case ipc::EventType::exitRequested: return session_->requestExit();
-	case ipc::EventType::recentered: return session_->tellRecentered(event.time, event.pose);
-	case ipc::EventType::lossPending: return session_->lose();
-	case ipc::EventType::none: return;
-	}
-}
-
-void Instance::tellLoss()
-{
-	std::lock_guard lock(newsMutex_);
-	if (std::exchange(lossTold_, true)) return;
-	if (session_) session_->lose();
-	events.push(XrEventDataInstanceLossPending{XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING, nullptr, realTime()});
+	const std::shared_ptr<SessionLife> session = *session_.lock();
+	const bool lost = service.isLost();
+	if (session && lost) session->lose();
+	if (session && session->takeEvent(event)) return true;
+	if (!lost || lossTold_.exchange(true)) return false;
+	const XrEventDataInstanceLossPending loss{XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING, nullptr, realTime()};
+	std::memcpy(static_cast<void *>(&event), &loss, sizeof(loss));
+	return true;
 }
 
 XrResult enumerateApiLayers(OutputArray<XrApiLayerProperties> layers) { return layers.assign({}); }
@@ -139,7 +107,12 @@ void createInstance(const XrInstanceCreateInfo &info, XrInstance &instance)
 	instance = handles.insert(std::move(made), nullptr);
 	if (const auto *messenger = findInChain<XrDebugUtilsMessengerCreateInfoEXT>(info.next); messenger && debugging) {
 		XrDebugUtilsMessengerEXT lives = XR_NULL_HANDLE; // as long as the instance
-		createDebugUtilsMessenger(object, *messenger, lives);
+		try {
+			createDebugUtilsMessenger(object, *messenger, lives);
+		} catch (...) {
+			handles.destroy(object);
+			throw;
+		}
 	}
 }
 
@@ -160,8 +133,7 @@ void getInstanceProperties(EvenIfLost<Instance>, XrInstanceProperties &propertie
 XrResult pollEvent(EvenIfLost<Instance> instance, XrEventDataBuffer *event)
 {
 	if (!event) throw Error(XR_ERROR_VALIDATION_FAILURE, "the event buffer is null");
-	instance->takeNews();
-	if (instance->events.pop(*event)) return XR_SUCCESS;
+	if (instance->takeEvent(*event)) return XR_SUCCESS;
 	instance->requireAlive();
 	return XR_EVENT_UNAVAILABLE;
 }

@@ -1,8 +1,8 @@
 // XrInstance: the connection to the service and everything that belongs to one application. OpenXR 1.1, chapters "Instance" and "System".
 #pragma once
 #include "runtime/openxr/actions.h"
+#include "runtime/openxr/debug_messengers.h"
 #include "runtime/openxr/entry_point.h"
-#include "runtime/openxr/event_queue.h"
 #include "runtime/openxr/extensions.h"
 #include "runtime/openxr/paths.h"
 #include "runtime/openxr/service.h"
@@ -11,7 +11,7 @@
 namespace arift::openxr
 {
 
-class Session;
+class SessionLife;
 
 /// The newest version this library implements; it accepts every 1.0 and 1.1.
 constexpr XrVersion newestApiVersion = XR_API_VERSION_1_1;
@@ -37,16 +37,16 @@ public:
 	/// Throws XR_ERROR_SYSTEM_INVALID for what xrGetSystem did not return.
 	void requireSystem(XrSystemId system) const;
 
-	/// Takes news from the service: events for the application, and the state of its session. No system call when there is none.
-	void takeNews();
-	/// The one session, or null; set by the session itself.
-	void setSession(Session *session);
+	/// Takes the oldest event for the application, if there is one; news from the service becomes events here.
+	bool takeEvent(XrEventDataBuffer &event);
+	/// The one session's, or null; set by the session itself.
+	void setSession(std::shared_ptr<SessionLife> life) { *session_.lock() = std::move(life); }
 
 	const InstanceOptions options;
 	Service service;
 	PathTable paths;
-	EventQueue events;
 	Guarded<Names> actionSetNames;
+	DebugMessengers messengers;
 	/// What the application told about its graphics API before it made a session.
 	std::atomic<bool> graphicsRequirementsKnown{false};
 	std::atomic<PFN_vkGetInstanceProcAddr> vulkanLoader{nullptr};
@@ -56,13 +56,8 @@ public:
 	std::atomic<bool> hasSession{false};
 
 private:
-	void takeEvent(const ipc::Event &event);
-	void tellLoss();
-
-	std::mutex newsMutex_; ///< guards session_ and newsTaken_'s advance
-	Session *session_ = nullptr;
-	std::atomic<uint64_t> newsTaken_{0};
-	bool lossTold_ = false;
+	Guarded<std::shared_ptr<SessionLife>> session_;
+	std::atomic<bool> lossTold_{false};
 };
 
 template <> struct HandleOf<Instance> {

@@ -1,5 +1,5 @@
 #include "runtime/openxr/error.h"
-#include "runtime/openxr/ext/ext_debug_utils.h"
+#include "runtime/openxr/instance.h"
 #include <atomic>
 #include <new>
 
@@ -9,27 +9,32 @@ namespace
 {
 
 /// An application may fail every frame, for ever: the log says so a limited number of times.
-void say(const char *function, XrResult result, const char *text)
+void say(const char *function, uint64_t handle, XrResult result, const char *text)
 {
 	constexpr int most = 100;
 	static std::atomic<int> said{0};
 	const int before = said.load(std::memory_order_relaxed) > most ? most + 1 : said.fetch_add(1, std::memory_order_relaxed);
 	if (before < most) log::warning("{}: {}: {}", function, nameOf(result), text);
 	if (before == most) log::warning("{} calls have failed; further ones are not logged", most);
-	sendToMessengers(XR_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-					 result == XR_ERROR_RUNTIME_FAILURE ? XR_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT
-														: XR_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
-					 nameOf(result), function, text);
+	XrDebugUtilsMessengerCallbackDataEXT data{XR_TYPE_DEBUG_UTILS_MESSENGER_CALLBACK_DATA_EXT};
+	data.messageId = nameOf(result);
+	data.functionName = function;
+	data.message = text;
+	if (Instance *instance = handles.rootOf<Instance>(handle))
+		instance->messengers.send(XR_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+								  result == XR_ERROR_RUNTIME_FAILURE ? XR_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT
+																	 : XR_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+								  data);
 }
 
 } // namespace
 
-XrResult report(const char *function) noexcept
+XrResult report(const char *function, uint64_t handle) noexcept
 {
 	try {
 		throw;
 	} catch (const Error &error) {
-		say(function, error.result, error.what());
+		say(function, handle, error.result, error.what());
 		return error.result;
 	} catch (const std::bad_alloc &) {
 		return XR_ERROR_OUT_OF_MEMORY;

@@ -4,20 +4,38 @@
 namespace arift::openxr
 {
 
-Session::Session(Instance &owner, std::unique_ptr<Graphics> graphics) : instance(owner), graphics_(std::move(graphics))
+Session::Granted Session::ask(Instance &instance, const Graphics *graphics)
 {
 	ipc::CreateSession request;
-	request.headless = graphics_ == nullptr;
-	if (graphics_) {
-		request.deviceUuid = graphics_->deviceUuid();
-		request.driverUuid = graphics_->driverUuid();
+	request.headless = graphics == nullptr;
+	if (graphics) {
+		request.deviceUuid = graphics->deviceUuid();
+		request.driverUuid = graphics->driverUuid();
 	}
-	auto answer = instance.service.ask<ipc::SessionCreated>(request, Service::openingLimit);
-	id_ = answer.reply.session;
-	if (answer.fdCount < 1) throw Error(XR_ERROR_RUNTIME_FAILURE, "arift-service sent no frame channel");
-	frames_ = std::make_unique<ipc::Socket>(std::move(answer.fds[0]));
+	const uint64_t newsBefore = instance.service.client().eventCount.load(std::memory_order_acquire);
+	try {
+		return {newsBefore, instance.service.ask<ipc::SessionCreated>(request, Service::openingLimit)};
+	} catch (const Error &error) {
+		// The service says so of a headset it cannot open; it is not among xrCreateSession's results.
+		if (error.result != XR_ERROR_RUNTIME_UNAVAILABLE) throw;
+		throw Error(XR_ERROR_INITIALIZATION_FAILED, "{}", error.what());
+	}
+}
+
+Session::Session(Instance &owner, std::unique_ptr<Graphics> &&graphics, Granted granted)
+	: instance(owner),
+	  graphics_(std::move(graphics)),
+	  id_(granted.answer.reply.session),
+	  life_(std::make_shared<SessionLife>(instance, id_, !graphics_, granted.newsBefore)),
+	  frames_(std::make_unique<ipc::Socket>(std::move(granted.answer.fds[0])))
+{
+}
+
+Session::Session(Instance &owner, std::unique_ptr<Graphics> graphics) : Session(owner, std::move(graphics), ask(owner, graphics.get()))
+{
+	if (frames_->fd() < 0) throw Error(XR_ERROR_RUNTIME_FAILURE, "arift-service sent no frame channel");
 	framesClosedInChildren_ = std::make_unique<ClosedInChildren>(frames_->fd());
-	if (graphics_) submitter_ = std::make_unique<Submitter>(*frames_);
+	if (graphics_) submitter_ = std::make_unique<Submitter>(*frames_, [life = life_] { life->lose(); });
 }
 
 Session::~Session()
@@ -29,32 +47,13 @@ Session::~Session()
 	} catch (const std::exception &problem) {
 		log::warning("xrDestroySession: {}", problem.what());
 	}
-	instance.events.dropEventsOf(handleOf(*this));
 	instance.hasSession = false;
 }
 
 void Session::announce()
 {
-	instance.setSession(this);
-	change([](SessionFacts &) {});
-}
-
-void Session::settleLocked(Life &life)
-{
-	life.state = settle(life.state, life.facts, [&](XrSessionState state) {
-		XrEventDataSessionStateChanged event{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr, handleOf(*this), state, realTime()};
-		if (!instance.service.isLost()) event.time = instance.service.now();
-		instance.events.push(event);
-	});
-	state_.store(life.state, std::memory_order_relaxed);
-}
-
-template <typename Change> void Session::change(Change change)
-{
-	life_.update([&](Life &life) {
-		change(life.facts);
-		settleLocked(life);
-	});
+	instance.setSession(life_);
+	life_->announce(handleOf(*this));
 }
 
 void Session::tellService(bool running)
@@ -67,73 +66,39 @@ void Session::begin(XrViewConfigurationType type)
 	// A headless session has no views: XR_MND_headless lets the type be anything.
 	if (graphics_) requireStereo(type);
 	{
-		auto life = life_.lock();
+		const auto life = life_->lock();
 		if (life->facts.begun) throw Error(XR_ERROR_SESSION_RUNNING, "the session is running already");
 		if (life->state != XR_SESSION_STATE_READY)
 			throw Error(XR_ERROR_SESSION_NOT_READY, "the session's state is {}, not READY", int(life->state));
 	}
 	tellService(true);
-	life_.update([&](Life &life) {
+	life_->change([&](Life &life) {
 		life.facts.begun = true;
 		life.facts.frameSynchronized = !graphics_; // without frames there is nothing to be in step with
 		if (!graphics_) life.facts.visible = life.facts.focused = true;
 		life.order = {};
-		settleLocked(life);
 	});
 }
 
 void Session::end()
 {
 	{
-		auto life = life_.lock();
-		requireRunning(*life);
+		const auto life = life_->lock();
+		life->requireRunning();
 		if (life->state != XR_SESSION_STATE_STOPPING)
 			throw Error(XR_ERROR_SESSION_NOT_STOPPING, "the session's state is {}, not STOPPING", int(life->state));
 	}
 	drainSubmissions();
 	tellService(false);
-	change([](SessionFacts &facts) { facts.begun = facts.frameSynchronized = facts.visible = facts.focused = false; });
-}
-
-void Session::requestExitByApplication()
-{
-	requireRunning(*life_.lock());
-	requestExit();
+	life_->change([](Life &life) { life.facts.begun = life.facts.frameSynchronized = life.facts.visible = life.facts.focused = false; });
 }
 
 void Session::requestExit()
 {
-	change([](SessionFacts &facts) { facts.exitRequested = true; });
-}
-
-void Session::setVisibility(bool visible, bool focused)
-{
-	if (!graphics_) return; // XR_MND_headless: visible and focused as long as it runs
-	change([&](SessionFacts &facts) {
-		facts.visible = visible;
-		facts.focused = focused;
+	life_->change([](Life &life) {
+		life.requireRunning();
+		life.facts.exitRequested = true;
 	});
-}
-
-void Session::lose()
-{
-	change([](SessionFacts &facts) { facts.lossPending = true; });
-	lost_ = true;
-}
-
-void Session::tellRecentered(XrTime time, const XrPosef &poseInPrevious)
-{
-	const auto tell = [&](XrReferenceSpaceType type) {
-		instance.events.push(XrEventDataReferenceSpaceChangePending{XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING, nullptr,
-																	handleOf(*this), type, time, XR_TRUE, poseInPrevious});
-	};
-	tell(XR_REFERENCE_SPACE_TYPE_LOCAL);
-	if (instance.is1_1()) tell(XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR);
-}
-
-void Session::requireRunning(const Life &life) const
-{
-	if (!life.facts.begun) throw Error(XR_ERROR_SESSION_NOT_RUNNING, "the session is not running: its state is {}", int(life.state));
 }
 
 void Session::drainSubmissions()
@@ -173,6 +138,6 @@ void destroySession(EvenIfLost<Session> session)
 
 void beginSession(Session &session, const XrSessionBeginInfo &info) { session.begin(info.primaryViewConfigurationType); }
 void endSession(Session &session) { session.end(); }
-void requestExitSession(Session &session) { session.requestExitByApplication(); }
+void requestExitSession(Session &session) { session.requestExit(); }
 
 } // namespace arift::openxr

@@ -1,9 +1,8 @@
 // XrSession: its life cycle, its frames and what it shares with the service. OpenXR 1.1, chapters "Session" and "Rendering".
 #pragma once
-#include "runtime/openxr/frame_order.h"
 #include "runtime/openxr/graphics.h"
 #include "runtime/openxr/instance.h"
-#include "runtime/openxr/session_state.h"
+#include "runtime/openxr/session_life.h"
 #include "runtime/openxr/submitter.h"
 
 namespace arift::openxr
@@ -20,7 +19,7 @@ public:
 	void requireAlive() const override
 	{
 		instance.requireAlive();
-		if (lost_.load(std::memory_order_relaxed)) throw Error(XR_ERROR_SESSION_LOST, "the session is lost");
+		if (life_->isLost()) throw Error(XR_ERROR_SESSION_LOST, "the session is lost");
 	}
 
 	uint32_t id() const { return id_; }
@@ -29,16 +28,12 @@ public:
 	/// Posts the first states: only when the session has its handle.
 	void announce();
 
-	// ---- life cycle; news from the service may come at any time
+	// ---- life cycle
 	void begin(XrViewConfigurationType type);
 	void end();
-	/// By the application: throws XR_ERROR_SESSION_NOT_RUNNING.
-	void requestExitByApplication();
 	void requestExit();
-	void setVisibility(bool visible, bool focused);
-	void tellRecentered(XrTime time, const XrPosef &poseInPrevious);
-	void lose();
-	XrSessionState state() const { return state_.load(std::memory_order_relaxed); }
+	void takeNews() { life_->takeNews(); }
+	XrSessionState state() const { return life_->state(); }
 	bool isFocused() const { return state() == XR_SESSION_STATE_FOCUSED; }
 
 	// ---- frames
@@ -55,26 +50,25 @@ public:
 	ActionState actions;
 
 private:
-	struct Life {
-		XrSessionState state = XR_SESSION_STATE_UNKNOWN;
-		SessionFacts facts;
-		FrameOrder order;
+	/// The service's answer, and how much news it had written before it was asked.
+	struct Granted {
+		uint64_t newsBefore;
+		ipc::Answer<ipc::SessionCreated> answer;
 	};
-
-	/// Changes the facts and posts the states that follow from them.
-	template <typename Change> void change(Change change);
-	void settleLocked(Life &life);
+	static Granted ask(Instance &instance, const Graphics *graphics);
+	/// From here on the service has a session that the destructor destroys.
+	Session(Instance &instance, std::unique_ptr<Graphics> &&graphics, Granted granted);
 	void tellService(bool running);
-	void requireRunning(const Life &life) const;
 	ipc::FrameReady askForFrame();
+	/// Throws XR_ERROR_SESSION_LOST when the service does not take it.
+	template <typename Message> void sendFrame(const Message &message);
+	[[noreturn]] void loseFrames(const char *why);
 
 	std::unique_ptr<Graphics> graphics_;
 	std::atomic<uint64_t> submitted_{0}; ///< frames handed to the submitter
-	Guarded<Life> life_;
-	std::atomic<XrSessionState> state_{XR_SESSION_STATE_UNKNOWN};
-	std::atomic<bool> lost_{false};
-	uint32_t id_ = 0;
-	std::unique_ptr<ipc::Socket> frames_;
+	const uint32_t id_;
+	const std::shared_ptr<SessionLife> life_;
+	const std::unique_ptr<ipc::Socket> frames_;
 	std::unique_ptr<ClosedInChildren> framesClosedInChildren_;
 	std::unique_ptr<Submitter> submitter_; ///< null for a headless session
 };

@@ -33,13 +33,18 @@ template <typename Function> std::jthread startThread(Function function)
 
 } // namespace
 
-Submitter::Submitter(ipc::Socket &frames) : frames_(frames), thread_(startThread([this](const std::stop_token &stop) { run(stop); })) {}
+Submitter::Submitter(ipc::Socket &frames, std::function<void()> fail)
+	: frames_(frames), fail_(std::move(fail)), thread_(startThread([this](const std::stop_token &stop) { run(stop); }))
+{
+}
 
 Submitter::~Submitter() = default;
 
 void Submitter::submit(const ipc::Submission &submission, std::vector<std::shared_ptr<Completion>> work)
 {
-	queue_.update([&](Queue &queue) { queue.jobs.push_back({submission, std::move(work)}); });
+	queue_.update([&](Queue &queue) {
+		if (!queue.failed) queue.jobs.push_back({submission, std::move(work)});
+	});
 }
 
 void Submitter::drain(XrDuration limit)
@@ -51,7 +56,7 @@ void Submitter::drain(XrDuration limit)
 
 void Submitter::run(const std::stop_token &stop)
 {
-	for (;;) {
+	for (bool failed = false; !failed;) {
 		Job job;
 		{
 			auto queue = queue_.lock();
@@ -60,25 +65,50 @@ void Submitter::run(const std::stop_token &stop)
 			queue->jobs.pop_front();
 			queue->busy = true;
 		}
-		// A failure to send is the session's end, which every other use of the socket notices.
-		if (waitFor(job, stop)) frames_.send(job.submission, realTime() + second);
+		failed = !send(job, stop);
 		job.work.clear();
-		queue_.update([](Queue &queue) { queue.busy = false; });
+		queue_.update([&](Queue &queue) {
+			queue.busy = false;
+			queue.failed = failed;
+			if (failed) queue.jobs.clear();
+		});
 	}
+	fail_();
 }
 
-bool Submitter::waitFor(const Job &job, const std::stop_token &stop) const
+bool Submitter::send(const Job &job, const std::stop_token &stop) const
 {
+	const Completion::Outcome work = waitFor(job, stop);
+	if (work == Completion::Outcome::notYet) return true;
+	if (work == Completion::Outcome::failed) {
+		log::error("the application's GPU device is lost");
+		return false;
+	}
+	switch (frames_.send(job.submission, realTime() + sendLimit)) {
+	case ipc::Transfer::done: return true;
+	case ipc::Transfer::timeout:
+		log::error("arift-service did not take frame {} within {} s", job.submission.frame, inSeconds(sendLimit));
+		break;
+	default: break; // closed: every other use of the channel notices
+	}
+	return false;
+}
+
+Completion::Outcome Submitter::waitFor(const Job &job, const std::stop_token &stop) const
+{
+	using Outcome = Completion::Outcome;
 	const XrTime deadline = realTime() + workLimit;
 	for (const auto &work : job.work)
-		while (!work->wait(waitSlice)) {
-			if (stop.stop_requested()) return false;
+		for (;;) {
+			const Outcome outcome = work->wait(waitSlice);
+			if (outcome == Outcome::done) break;
+			if (outcome == Outcome::failed || stop.stop_requested()) return outcome;
 			if (realTime() < deadline) continue;
 			log::error("the application's GPU did not finish frame {} within {} s; it is not shown", job.submission.frame,
 					   inSeconds(workLimit));
-			return false;
+			return outcome;
 		}
-	return true;
+	return Outcome::done;
 }
 
 } // namespace arift::openxr

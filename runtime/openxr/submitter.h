@@ -4,6 +4,7 @@
 #include "runtime/ipc/socket.h"
 #include "runtime/openxr/graphics.h"
 #include <deque>
+#include <functional>
 #include <thread>
 
 namespace arift::openxr
@@ -12,8 +13,10 @@ namespace arift::openxr
 class Submitter
 {
 public:
-	/// `frames` must outlive it.
-	explicit Submitter(ipc::Socket &frames);
+	/// `frames` must outlive it. `fail` is called once, in the thread, when frames can no longer reach the service: the channel is closed
+	/// or nobody reads it, or the application's device is lost. Nothing is sent from then on.
+	explicit Submitter(
+		ipc::Socket &frames, std::function<void()> fail = [] {});
 	/// Sends nothing further; ends within a wait of `waitSlice`.
 	~Submitter();
 
@@ -25,6 +28,7 @@ public:
 private:
 	static constexpr XrDuration waitSlice = 20 * millisecond;
 	static constexpr XrDuration workLimit = 5 * second;
+	static constexpr XrDuration sendLimit = second;
 	struct Job {
 		ipc::Submission submission;
 		std::vector<std::shared_ptr<Completion>> work;
@@ -32,12 +36,16 @@ private:
 	struct Queue {
 		std::deque<Job> jobs;
 		bool busy = false;
+		bool failed = false; ///< what comes is dropped
 	};
 
 	void run(const std::stop_token &stop);
-	bool waitFor(const Job &job, const std::stop_token &stop) const;
+	/// False when nothing more can be sent.
+	bool send(const Job &job, const std::stop_token &stop) const;
+	Completion::Outcome waitFor(const Job &job, const std::stop_token &stop) const;
 
 	ipc::Socket &frames_;
+	const std::function<void()> fail_;
 	Guarded<Queue> queue_;
 	std::jthread thread_;
 };

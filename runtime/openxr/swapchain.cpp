@@ -37,20 +37,6 @@ gpu::ImageSpec specFor(const Session &session, const XrSwapchainCreateInfo &info
 	return session.graphics()->specOf(info);
 }
 
-ipc::Answer<ipc::SwapchainCreated> allocate(const Session &session, const gpu::ImageSpec &spec, bool isStatic)
-{
-	ipc::CreateSwapchain request;
-	request.session = session.id();
-	request.imageCount = isStatic ? 1 : usualImages;
-	request.spec = spec;
-	auto answer = session.instance.service.ask<ipc::SwapchainCreated>(request);
-	const uint32_t count = answer.reply.imageCount;
-	if (count < request.imageCount || count > ipc::maxImages || answer.fdCount != count)
-		throw Error(XR_ERROR_RUNTIME_FAILURE, "arift-service allocated {} images and sent {} of them instead of {}", count, answer.fdCount,
-					request.imageCount);
-	return answer;
-}
-
 void sleepFor(XrDuration duration)
 {
 	const timespec time{.tv_sec = 0, .tv_nsec = long(duration)};
@@ -59,32 +45,46 @@ void sleepFor(XrDuration duration)
 
 } // namespace
 
-Swapchain::Swapchain(Session &owner, const XrSwapchainCreateInfo &info)
-	: session(owner),
-	  spec_(specFor(session, info)),
-	  shared_(allocate(session, spec_, info.createFlags & XR_SWAPCHAIN_CREATE_STATIC_IMAGE_BIT)),
-	  images_(session.graphics()->import(
-		  spec_, {std::span(shared_.fds).first(shared_.reply.imageCount), shared_.reply.memorySize, shared_.reply.memoryTypeIndex})),
-	  turns_(Turns{ImageQueue(shared_.reply.imageCount, info.createFlags & XR_SWAPCHAIN_CREATE_STATIC_IMAGE_BIT),
-				   std::vector<std::shared_ptr<Completion>>(shared_.reply.imageCount)})
+AllocatedImages::AllocatedImages(Session &session, ipc::Answer<ipc::SwapchainCreated> answer)
+	: session_(session), answer_(std::move(answer))
 {
 }
 
-Swapchain::~Swapchain()
+AllocatedImages::AllocatedImages(Session &session, const gpu::ImageSpec &spec, bool isStatic)
+	: AllocatedImages(session, session.instance.service.ask<ipc::SwapchainCreated>(
+								   ipc::CreateSwapchain{.session = session.id(), .imageCount = isStatic ? 1 : usualImages, .spec = spec}))
 {
-	// No submission that names its images may come after the message that destroys them.
-	session.drainSubmissions();
+	const uint32_t wanted = isStatic ? 1 : usualImages;
+	if (count() < wanted || count() > ipc::maxImages || answer_.fdCount != count())
+		throw Error(XR_ERROR_RUNTIME_FAILURE, "arift-service allocated {} images and sent {} of them instead of {}", count(),
+					answer_.fdCount, wanted);
+}
+
+AllocatedImages::~AllocatedImages()
+{
+	// No submission that names the images may come after the message that destroys them.
+	session_.drainSubmissions();
 	try {
-		const Service &service = session.instance.service;
-		if (!service.isLost()) session.instance.service.ask<ipc::Done>(ipc::DestroySwapchain{.swapchain = id()});
+		Service &service = session_.instance.service;
+		if (!service.isLost()) service.ask<ipc::Done>(ipc::DestroySwapchain{.swapchain = swapchain()});
 	} catch (const std::exception &problem) {
 		log::warning("xrDestroySwapchain: {}", problem.what());
 	}
 }
 
+Swapchain::Swapchain(Session &owner, const XrSwapchainCreateInfo &info)
+	: session(owner),
+	  spec_(specFor(session, info)),
+	  allocated_(session, spec_, info.createFlags & XR_SWAPCHAIN_CREATE_STATIC_IMAGE_BIT),
+	  images_(session.graphics()->import(spec_, allocated_.memory())),
+	  turns_(Turns{ImageQueue(allocated_.count(), info.createFlags & XR_SWAPCHAIN_CREATE_STATIC_IMAGE_BIT),
+				   std::vector<std::shared_ptr<Completion>>(allocated_.count()), std::nullopt, 0})
+{
+}
+
 XrResult Swapchain::describe(OutputArray<XrSwapchainImageBaseHeader> images) const
 {
-	const uint32_t count = shared_.reply.imageCount;
+	const uint32_t count = allocated_.count();
 	*images.count = count;
 	if (images.capacity == 0) return XR_SUCCESS;
 	if (images.capacity < count) return XR_ERROR_SIZE_INSUFFICIENT;
@@ -102,12 +102,16 @@ uint64_t Swapchain::oldestHeld() const { return session.instance.service.client(
 uint32_t Swapchain::acquire()
 {
 	uint32_t image = 0;
-	turns_.update([&](Turns &turns) {
-		image = turns.queue.acquire(oldestHeld());
-		// An image the compositor may still read stays its own: the application gets it after a wait, and without its contents, so that
-		// Vulkan asks for no transfer ("Queue Family Ownership Transfer": a transfer may be left out when contents need not survive).
-		if (turns.queue.isFree(image, oldestHeld())) images_->takeOver(image);
-	});
+	bool isReleased = false;
+	{
+		const auto turns = turns_.lock();
+		image = turns->queue.toAcquire(oldestHeld());
+		isReleased = isFree(turns->queue, image);
+	}
+	// An image the compositor may still read stays its own: the application gets it after a wait, and without its contents, so that
+	// Vulkan asks for no transfer ("Queue Family Ownership Transfer": a transfer may be left out when contents need not survive).
+	if (isReleased) images_->takeOver(image);
+	turns_.lock()->queue.acquire(image);
 	return image;
 }
 
@@ -115,39 +119,43 @@ bool Swapchain::wait(XrDuration timeout)
 {
 	const XrTime begin = realTime();
 	const XrTime end = timeout > XR_INFINITE_DURATION - begin ? XR_INFINITE_DURATION : begin + std::max<XrDuration>(timeout, 0);
-	const XrDuration refresh = std::clamp<XrDuration>(session.instance.service.timing().displayPeriod, millisecond, 100 * millisecond);
-	bool relinquished = false;
 	for (;;) {
-		uint64_t lastFrame = 0;
-		bool holdsAll = false;
+		std::optional<uint64_t> unwanted;
 		{
 			auto turns = turns_.lock();
 			const uint32_t image = turns->queue.toWaitFor();
-			if (turns->queue.isFree(image, oldestHeld())) {
+			if (isFree(turns->queue, image)) {
 				turns->queue.waited();
+				turns->waitingSince.reset();
 				return true;
 			}
-			lastFrame = turns->queue.lastFrame(image);
-			holdsAll = turns->queue.allAcquired();
+			unwanted = toRelinquish(*turns, realTime());
 		}
+		if (unwanted) session.relinquish(*unwanted);
 		const XrTime now = realTime();
 		if (now >= end) return false;
 		session.requireAlive();
-		if (holdsAll && !relinquished && now - begin >= refresh) {
-			session.relinquish(lastFrame);
-			relinquished = true;
-		}
 		sleepFor(std::min(lookAgain, end - now));
 	}
 }
 
+std::optional<uint64_t> Swapchain::toRelinquish(Turns &turns, XrTime now) const
+{
+	if (!turns.waitingSince) turns.waitingSince = now;
+	const XrDuration refresh = std::clamp<XrDuration>(session.instance.service.timing().displayPeriod, millisecond, 100 * millisecond);
+	const uint64_t frame = turns.queue.lastFrame(turns.queue.toWaitFor());
+	if (!turns.queue.allAcquired() || now - *turns.waitingSince < refresh || frame <= turns.relinquished) return std::nullopt;
+	turns.relinquished = frame;
+	return frame;
+}
+
 void Swapchain::release()
 {
-	turns_.update([&](Turns &turns) {
-		const uint32_t image = turns.queue.toRelease();
-		turns.work[image] = images_->handOver(image);
-		turns.queue.release();
-	});
+	const uint32_t image = turns_.lock()->queue.toRelease();
+	std::shared_ptr<Completion> work = images_->handOver(image);
+	const auto turns = turns_.lock();
+	turns->work[image].swap(work);
+	turns->queue.release();
 }
 
 std::optional<uint32_t> Swapchain::newestImage() { return turns_.lock()->queue.newest(); }

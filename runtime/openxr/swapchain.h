@@ -6,21 +6,40 @@
 namespace arift::openxr
 {
 
+/// The images as the service knows them. It is told when they are done with.
+class AllocatedImages
+{
+public:
+	/// Throws what xrCreateSwapchain returns.
+	AllocatedImages(Session &session, const gpu::ImageSpec &spec, bool isStatic);
+	~AllocatedImages();
+	AllocatedImages(const AllocatedImages &) = delete;
+
+	uint32_t swapchain() const { return answer_.reply.swapchain; }
+	uint32_t count() const { return answer_.reply.imageCount; }
+	SharedMemory memory() { return {std::span(answer_.fds).first(count()), answer_.reply.memorySize, answer_.reply.memoryTypeIndex}; }
+
+private:
+	AllocatedImages(Session &session, ipc::Answer<ipc::SwapchainCreated> answer);
+
+	Session &session_;
+	ipc::Answer<ipc::SwapchainCreated> answer_;
+};
+
 class Swapchain : public Object
 {
 public:
 	/// Throws what xrCreateSwapchain returns.
 	Swapchain(Session &session, const XrSwapchainCreateInfo &info);
-	~Swapchain() override;
 	void requireAlive() const override { session.requireAlive(); }
 
-	uint32_t id() const { return shared_.reply.swapchain; }
+	uint32_t id() const { return allocated_.swapchain(); }
 	const gpu::ImageSpec &spec() const { return spec_; }
 	bool isCube() const { return spec_.createFlags & VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT; }
 	XrResult describe(OutputArray<XrSwapchainImageBaseHeader> images) const;
 
 	uint32_t acquire();
-	/// False when the image is not free within `timeout`.
+	/// False when the image is not free within `timeout`. What it waits for is remembered from call to call: an application may poll.
 	bool wait(XrDuration timeout);
 	void release();
 
@@ -36,11 +55,16 @@ private:
 	struct Turns {
 		ImageQueue queue;
 		std::vector<std::shared_ptr<Completion>> work; ///< of each image: what its last release waits for
+		std::optional<XrTime> waitingSince;            ///< when the image that is next was first found to be held by the compositor
+		uint64_t relinquished = 0;                     ///< the compositor has been asked to give up submissions up to this one
 	};
 	uint64_t oldestHeld() const;
+	bool isFree(const ImageQueue &queue, uint32_t image) const { return queue.isFree(image, oldestHeld()); }
+	/// The submission to ask the compositor to give up: the application holds everything else and has waited for a refresh.
+	std::optional<uint64_t> toRelinquish(Turns &turns, XrTime now) const;
 
 	const gpu::ImageSpec spec_;
-	ipc::Answer<ipc::SwapchainCreated> shared_;
+	AllocatedImages allocated_;
 	std::unique_ptr<SwapchainImages> images_;
 	Guarded<Turns> turns_;
 };

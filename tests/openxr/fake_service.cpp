@@ -101,7 +101,8 @@ void FakeService::start(std::shared_ptr<ipc::Socket> socket, void (FakeService::
 
 void FakeService::hangUp()
 {
-	for (const Connection &connection : *connections_.lock()) connection.socket->hangUp();
+	const auto connections = connections_.lock();
+	for (const Connection &connection : *connections) connection.socket->hangUp();
 }
 
 void FakeService::send(const ipc::Event &event)
@@ -134,8 +135,14 @@ void FakeService::answer(ipc::Socket &socket, const ipc::Received &received)
 		return reply(socket, received, welcome_, std::array{system_.fd(), ring_.fd(), client_.fd()});
 	}
 	if (received.as<ipc::CreateSession>()) {
+		if (refusal_ != XR_SUCCESS) return reply(socket, received, ipc::Failed{.result = refusal_});
 		auto [ours, theirs] = ipc::Socket::pair();
-		start(std::make_shared<ipc::Socket>(std::move(ours)), &FakeService::serveFrames);
+		if (readingFrames_) {
+			start(std::make_shared<ipc::Socket>(std::move(ours)), &FakeService::serveFrames);
+		} else {
+			while (theirs.send(ipc::Relinquish{}, 0) == ipc::Transfer::done) {}
+			unread_.emplace(std::move(ours));
+		}
 		uint32_t number = 0;
 		record_.update([&](Record &record) { number = ++record.sessionsCreated; });
 		return reply(socket, received, ipc::SessionCreated{.session = number}, std::array{theirs.fd()});
@@ -166,6 +173,7 @@ void FakeService::serveFrames(ipc::Socket &socket, const std::stop_token &stop)
 	for (ipc::Transfer transfer = ipc::Transfer::timeout; transfer != ipc::Transfer::hungUp && !stop.stop_requested();) {
 		transfer = socket.receive(received, realTime() + second / 10);
 		if (transfer != ipc::Transfer::done) continue;
+		record_.update([&](Record &record) { record.frameMessages.push_back(received.header()->type); });
 		if (const auto wait = received.as<ipc::WaitFrame>()) {
 			record_.update([&](Record &record) { record.waits.push_back(wait->header.sequence); });
 			const XrTime now = realTime();

@@ -7,6 +7,7 @@
 #include "runtime/motion/pose_history.h"
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -34,6 +35,10 @@ public:
 	/// Whether a submission is let go of as soon as the next one comes, as when every refresh shows the newest.
 	void setShowing(bool showing) { showing_ = showing; }
 	void stopHeart() { beating_ = false; }
+	/// Sessions made from now on have a frame channel that is full and is not read.
+	void stopReadingFrames() { readingFrames_ = false; }
+	/// What CreateSession is answered with from now on.
+	void refuseSessions(XrResult result) { refusal_ = result; }
 	/// Ends every connection as a process that is killed does.
 	void hangUp();
 
@@ -42,7 +47,8 @@ public:
 		std::vector<ipc::Hello> hellos;
 		std::vector<ipc::Submission> submissions;
 		std::vector<uint64_t> relinquished;
-		std::vector<uint32_t> waits; ///< the submissions each WaitFrame announced
+		std::vector<uint32_t> waits;                 ///< the submissions each WaitFrame announced
+		std::vector<ipc::MessageType> frameMessages; ///< all that came through the frame channel, in order
 		std::vector<ipc::CreateSwapchain> swapchains;
 		uint32_t sessionsCreated = 0, sessionsDestroyed = 0, swapchainsDestroyed = 0;
 		bool running = false;
@@ -70,7 +76,9 @@ private:
 	ipc::SharedPage<PoseRing> ring_{"fake-poses"};
 	ipc::SharedPage<ipc::ClientPage> client_{"fake-client"};
 	PoseWriter writer_{*ring_};
-	std::atomic<bool> beating_{true}, showing_{true};
+	std::atomic<bool> beating_{true}, showing_{true}, readingFrames_{true};
+	std::atomic<XrResult> refusal_{XR_SUCCESS};
+	std::optional<ipc::Socket> unread_; ///< the service's end of a frame channel
 	Guarded<Record> record_;
 	Guarded<std::vector<Connection>> connections_;
 	std::unique_ptr<ipc::Listener> listener_;

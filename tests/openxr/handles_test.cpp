@@ -77,6 +77,10 @@ TEST_F(Handles, ChildrenGoBeforeTheirParents)
 	const XrSession grandchild = add(3, &child);
 	const Tree &sibling = handles.at<Tree>(add(4, &root));
 	const XrSession stranger = add(5);
+	EXPECT_EQ(handles.rootOf<Tree>(reinterpret_cast<uint64_t>(grandchild)), &root);
+	EXPECT_EQ(handles.rootOf<Tree>(root.handleValue()), &root);
+	EXPECT_EQ(handles.rootOf<Other>(root.handleValue()), nullptr) << "of another kind";
+	EXPECT_EQ(handles.rootOf<Tree>(0), nullptr);
 	handles.destroy(sibling);
 	EXPECT_EQ(order, (std::vector{4}));
 	handles.destroy(root);

@@ -96,6 +96,22 @@ TEST(Instance, WithoutAServiceTheReasonIsTold)
 	EXPECT_EQ(Application().created, XR_ERROR_RUNTIME_UNAVAILABLE);
 }
 
+/// The service's own word for it is not among xrCreateSession's results.
+TEST(Instance, AHeadsetThatCannotBeOpenedMakesNoSession)
+{
+	FakeService service;
+	const Application application({"XR_MND_headless"});
+	service.refuseSessions(XR_ERROR_RUNTIME_UNAVAILABLE);
+	const XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO, nullptr, 0, application.system()};
+	XrSession session = XR_NULL_HANDLE;
+	const auto create = application.get<PFN_xrCreateSession>("xrCreateSession");
+	EXPECT_EQ(create(application.instance, &info, &session), XR_ERROR_INITIALIZATION_FAILED);
+	service.refuseSessions(XR_ERROR_GRAPHICS_DEVICE_INVALID);
+	EXPECT_EQ(create(application.instance, &info, &session), XR_ERROR_GRAPHICS_DEVICE_INVALID);
+	service.refuseSessions(XR_SUCCESS);
+	EXPECT_EQ(create(application.instance, &info, &session), XR_SUCCESS);
+}
+
 TEST(Instance, ASilentServiceIsLost)
 {
 	FakeService service;

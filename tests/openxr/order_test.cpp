@@ -61,10 +61,17 @@ TEST(FrameOrder, AFailedWaitCanBeRepeated)
 	EXPECT_EQ(resultOf([&] { order.begin(); }), XR_ERROR_CALL_ORDER_INVALID);
 }
 
+uint32_t acquire(ImageQueue &queue, uint64_t oldestHeld)
+{
+	const uint32_t image = queue.toAcquire(oldestHeld);
+	queue.acquire(image);
+	return image;
+}
+
 /// Draws one image of `queue` and shows it in submission `frame`.
 uint32_t draw(ImageQueue &queue, uint64_t frame, uint64_t oldestHeld)
 {
-	const uint32_t image = queue.acquire(oldestHeld);
+	const uint32_t image = acquire(queue, oldestHeld);
 	EXPECT_EQ(queue.toWaitFor(), image);
 	EXPECT_TRUE(queue.isFree(image, oldestHeld));
 	queue.waited();
@@ -85,13 +92,24 @@ TEST(ImageQueue, PrefersAFreeImageToTheOneReleasedLongestAgo)
 	draw(queue, 5, 0);
 	draw(queue, 2, 0); // shown earlier than the first: a swapchain may be left out of some frames
 	draw(queue, 6, 0);
-	EXPECT_EQ(queue.acquire(3), 1u) << "images 0 and 2 are held, 1 is free";
-	EXPECT_EQ(queue.acquire(3), 0u) << "none is free: the one released longest ago";
+	EXPECT_EQ(acquire(queue, 3), 1u) << "images 0 and 2 are held, 1 is free";
+	EXPECT_EQ(acquire(queue, 3), 0u) << "none is free: the one released longest ago";
 	EXPECT_FALSE(queue.isFree(0, 3));
 	EXPECT_FALSE(queue.allAcquired());
-	EXPECT_EQ(queue.acquire(3), 2u);
+	EXPECT_EQ(acquire(queue, 3), 2u);
 	EXPECT_TRUE(queue.allAcquired());
-	EXPECT_EQ(resultOf([&] { queue.acquire(3); }), XR_ERROR_CALL_ORDER_INVALID);
+	EXPECT_EQ(resultOf([&] { acquire(queue, 3); }), XR_ERROR_CALL_ORDER_INVALID);
+}
+
+TEST(ImageQueue, ChoosingAnImageChangesNothing)
+{
+	ImageQueue queue(2, false);
+	EXPECT_EQ(queue.toAcquire(0), 0u);
+	EXPECT_EQ(queue.toAcquire(0), 0u);
+	EXPECT_EQ(resultOf([&] { queue.toWaitFor(); }), XR_ERROR_CALL_ORDER_INVALID);
+	queue.acquire(0);
+	EXPECT_EQ(resultOf([&] { queue.acquire(0); }), XR_ERROR_CALL_ORDER_INVALID) << "two threads chose the same";
+	EXPECT_EQ(queue.toAcquire(0), 1u);
 }
 
 TEST(ImageQueue, CallOrder)
@@ -100,8 +118,8 @@ TEST(ImageQueue, CallOrder)
 	EXPECT_EQ(resultOf([&] { queue.toWaitFor(); }), XR_ERROR_CALL_ORDER_INVALID);
 	EXPECT_EQ(resultOf([&] { queue.toRelease(); }), XR_ERROR_CALL_ORDER_INVALID);
 	EXPECT_FALSE(queue.newest());
-	queue.acquire(0);
-	queue.acquire(0);
+	acquire(queue, 0);
+	acquire(queue, 0);
 	EXPECT_EQ(resultOf([&] { queue.toRelease(); }), XR_ERROR_CALL_ORDER_INVALID) << "acquired but not waited for";
 	EXPECT_EQ(queue.toWaitFor(), 0u);
 	queue.waited();
@@ -115,7 +133,7 @@ TEST(ImageQueue, AStaticImageIsAcquiredOnce)
 {
 	ImageQueue queue(1, true);
 	draw(queue, 1, 0);
-	EXPECT_EQ(resultOf([&] { queue.acquire(100); }), XR_ERROR_CALL_ORDER_INVALID);
+	EXPECT_EQ(resultOf([&] { acquire(queue, 100); }), XR_ERROR_CALL_ORDER_INVALID);
 	EXPECT_EQ(queue.newest(), 0u);
 }
 

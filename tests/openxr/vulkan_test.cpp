@@ -257,6 +257,7 @@ TEST_F(VulkanSession, SwapchainsAreCheckedBeforeTheServiceIsAsked)
 	std::vector<int64_t> formats(count);
 	ASSERT_EQ(get<PFN_xrEnumerateSwapchainFormats>("xrEnumerateSwapchainFormats")(session, count, &count, formats.data()), XR_SUCCESS);
 	EXPECT_EQ(formats[0], VK_FORMAT_R8G8B8A8_SRGB);
+	EXPECT_EQ(formats, gpu::swapchainFormats(device)) << "what the service makes, no more and no less";
 	for (const int64_t format : formats) {
 		XrSwapchainCreateInfo info = swapchainInfo();
 		info.format = format;

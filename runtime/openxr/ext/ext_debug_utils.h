@@ -8,24 +8,18 @@ namespace arift::openxr
 class DebugMessenger : public Object
 {
 public:
-	explicit DebugMessenger(const XrDebugUtilsMessengerCreateInfoEXT &info);
+	DebugMessenger(Instance &instance, const XrDebugUtilsMessengerCreateInfoEXT &info);
 	~DebugMessenger() override;
 	void requireAlive() const override {}
-	void send(XrDebugUtilsMessageSeverityFlagsEXT severity, XrDebugUtilsMessageTypeFlagsEXT types,
-			  const XrDebugUtilsMessengerCallbackDataEXT &data) const;
 
 private:
-	const XrDebugUtilsMessengerCreateInfoEXT info_;
+	Instance &instance_;
 };
 
 template <> struct HandleOf<DebugMessenger> {
 	using type = XrDebugUtilsMessengerEXT;
 	static constexpr XrObjectType objectType = XR_OBJECT_TYPE_DEBUG_UTILS_MESSENGER_EXT;
 };
-
-/// To every messenger of this process that asked for it. `id` and `function` may be null.
-void sendToMessengers(XrDebugUtilsMessageSeverityFlagsEXT severity, XrDebugUtilsMessageTypeFlagsEXT types, const char *id,
-					  const char *function, const char *text) noexcept;
 
 void createDebugUtilsMessenger(Instance &instance, const XrDebugUtilsMessengerCreateInfoEXT &info, XrDebugUtilsMessengerEXT &messenger);
 void destroyDebugUtilsMessenger(EvenIfLost<DebugMessenger> messenger);

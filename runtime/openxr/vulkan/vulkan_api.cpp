@@ -1,4 +1,5 @@
 #include "runtime/openxr/vulkan/vulkan_api.h"
+#include <string>
 
 namespace arift::openxr
 {
@@ -12,17 +13,23 @@ template <typename Pfn, typename Loader, typename Owner> Pfn find(Loader loader,
 	return function;
 }
 
+/// By its name in the core, or as the extension's.
+template <typename Pfn> Pfn findIfThere(PFN_vkGetInstanceProcAddr loader, VkInstance owner, const std::string &name)
+{
+	const PFN_vkVoidFunction core = loader(owner, name.c_str());
+	return reinterpret_cast<Pfn>(core ? core : loader(owner, (name + "KHR").c_str()));
+}
+
 } // namespace
 
 #define ARIFT_FIND(name) name(find<PFN_vk##name>(loader, owner, "vk" #name)),
 
 VulkanInstanceApi::VulkanInstanceApi(PFN_vkGetInstanceProcAddr loader, VkInstance owner)
-	: ARIFT_VK_INSTANCE_FUNCTIONS(ARIFT_FIND) GetPhysicalDeviceProperties2(
-		  reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(loader(owner, "vkGetPhysicalDeviceProperties2")))
+	: ARIFT_VK_INSTANCE_FUNCTIONS(ARIFT_FIND)
+		  GetPhysicalDeviceProperties2(findIfThere<PFN_vkGetPhysicalDeviceProperties2>(loader, owner, "vkGetPhysicalDeviceProperties2")),
+	  GetPhysicalDeviceImageFormatProperties2(
+		  findIfThere<PFN_vkGetPhysicalDeviceImageFormatProperties2>(loader, owner, "vkGetPhysicalDeviceImageFormatProperties2"))
 {
-	if (!GetPhysicalDeviceProperties2)
-		GetPhysicalDeviceProperties2 =
-			reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(loader(owner, "vkGetPhysicalDeviceProperties2KHR"));
 }
 
 #undef ARIFT_FIND

@@ -9,7 +9,6 @@ namespace arift::openxr
 	X(EnumeratePhysicalDevices)                                                                                                            \
 	X(EnumerateDeviceExtensionProperties)                                                                                                  \
 	X(GetPhysicalDeviceProperties)                                                                                                         \
-	X(GetPhysicalDeviceFormatProperties)                                                                                                   \
 	X(GetPhysicalDeviceImageFormatProperties)                                                                                              \
 	X(GetPhysicalDeviceQueueFamilyProperties)                                                                                              \
 	X(GetDeviceProcAddr)                                                                                                                   \
@@ -42,6 +41,7 @@ struct VulkanInstanceApi {
 	ARIFT_VK_INSTANCE_FUNCTIONS(ARIFT_MEMBER)
 	/// Of Vulkan 1.1 or VK_KHR_get_physical_device_properties2; null where the application's instance has neither.
 	PFN_vkGetPhysicalDeviceProperties2 GetPhysicalDeviceProperties2;
+	PFN_vkGetPhysicalDeviceImageFormatProperties2 GetPhysicalDeviceImageFormatProperties2;
 	/// Throws XR_ERROR_GRAPHICS_DEVICE_INVALID.
 	VulkanInstanceApi(PFN_vkGetInstanceProcAddr loader, VkInstance instance);
 };

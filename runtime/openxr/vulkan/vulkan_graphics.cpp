@@ -1,4 +1,5 @@
 #include "runtime/openxr/vulkan/vulkan_graphics.h"
+#include "runtime/gpu/swapchain_formats.h"
 #include "runtime/openxr/vulkan/vulkan_images.h"
 #include <algorithm>
 
@@ -7,24 +8,11 @@ namespace arift::openxr
 namespace
 {
 
-/// Encoded formats first: an application that takes the first one gets its colours right.
-constexpr std::array candidates{
-	VK_FORMAT_R8G8B8A8_SRGB,       VK_FORMAT_B8G8R8A8_SRGB,      VK_FORMAT_R8G8B8A8_UNORM,           VK_FORMAT_B8G8R8A8_UNORM,
-	VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R16G16B16A16_UNORM, VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_D32_SFLOAT,
-	VK_FORMAT_D16_UNORM,           VK_FORMAT_D24_UNORM_S8_UINT,  VK_FORMAT_D32_SFLOAT_S8_UINT};
-
-std::vector<int64_t> usableFormats(const VulkanInstanceApi &vulkan, VkPhysicalDevice device)
+std::vector<int64_t> formatsOf(const VulkanInstanceApi &vulkan, VkPhysicalDevice device)
 {
-	std::vector<int64_t> formats;
-	for (const VkFormat format : candidates) {
-		VkFormatProperties properties{};
-		vulkan.GetPhysicalDeviceFormatProperties(device, format, &properties);
-		const VkFormatFeatureFlags needed =
-			VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
-			(gpu::isDepth(format) ? VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT);
-		if ((properties.optimalTilingFeatures & needed) == needed) formats.push_back(format);
-	}
-	return formats;
+	if (!vulkan.GetPhysicalDeviceImageFormatProperties2)
+		throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "the VkInstance was made without the extensions that sharing images needs");
+	return gpu::swapchainFormats(device, vulkan.GetPhysicalDeviceImageFormatProperties2);
 }
 
 VkImageUsageFlags usageOf(XrSwapchainUsageFlags flags)
@@ -65,7 +53,7 @@ class FenceCompletion final : public Completion
 public:
 	FenceCompletion(std::shared_ptr<FencePool> pool, VkFence fence) : pool_(std::move(pool)), fence_(fence) {}
 	~FenceCompletion() override { pool_->giveBack(fence_); }
-	bool wait(XrDuration limit) const override { return pool_->wait(fence_, limit); }
+	Outcome wait(XrDuration limit) const override { return pool_->wait(fence_, limit); }
 
 private:
 	std::shared_ptr<FencePool> pool_;
@@ -76,7 +64,8 @@ private:
 
 FencePool::~FencePool()
 {
-	for (const VkFence fence : *idle_.lock()) {
+	const auto idle = idle_.lock();
+	for (const VkFence fence : *idle) {
 		wait(fence, second); // one that is still pending may not be destroyed
 		vulkan_.DestroyFence(device_, fence, nullptr);
 	}
@@ -100,9 +89,13 @@ VkFence FencePool::take()
 	return fence;
 }
 
-bool FencePool::wait(VkFence fence, XrDuration limit) const
+Completion::Outcome FencePool::wait(VkFence fence, XrDuration limit) const
 {
-	return vulkan_.WaitForFences(device_, 1, &fence, VK_TRUE, uint64_t(limit)) == VK_SUCCESS;
+	switch (vulkan_.WaitForFences(device_, 1, &fence, VK_TRUE, uint64_t(limit))) {
+	case VK_SUCCESS: return Completion::Outcome::done;
+	case VK_TIMEOUT: return Completion::Outcome::notYet;
+	default: return Completion::Outcome::failed;
+	}
 }
 
 VulkanDevice::VulkanDevice(const VulkanInstanceApi &instanceApi, const XrGraphicsBindingVulkanKHR &binding)
@@ -133,7 +126,7 @@ VulkanGraphics::VulkanGraphics(const VulkanInstanceApi &instanceApi, const XrGra
 	: instanceApi_(instanceApi),
 	  physicalDevice_(requireBinding(binding).physicalDevice),
 	  id_(identify(instanceApi_, physicalDevice_)),
-	  formats_(usableFormats(instanceApi_, physicalDevice_)),
+	  formats_(formatsOf(instanceApi_, physicalDevice_)),
 	  device_(instanceApi_, binding)
 {
 }

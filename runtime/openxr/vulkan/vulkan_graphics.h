@@ -20,7 +20,7 @@ public:
 	VkFence take();
 	/// A fence nobody waits for any more; it may not be signalled yet.
 	void giveBack(VkFence fence) { idle_.lock()->push_back(fence); }
-	bool wait(VkFence fence, XrDuration limit) const;
+	Completion::Outcome wait(VkFence fence, XrDuration limit) const;
 
 private:
 	const VulkanDeviceApi &vulkan_;

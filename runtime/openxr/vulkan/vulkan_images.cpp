@@ -8,13 +8,6 @@ namespace
 constexpr XrDuration workLimit = second;
 constexpr VkAccessFlags everyAccess = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
 
-VkImageAspectFlags aspectOf(VkFormat format)
-{
-	const bool hasStencil = format == VK_FORMAT_D24_UNORM_S8_UINT || format == VK_FORMAT_D32_SFLOAT_S8_UINT;
-	if (!gpu::isDepth(format)) return VK_IMAGE_ASPECT_COLOR_BIT;
-	return hasStencil ? VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT : VK_IMAGE_ASPECT_DEPTH_BIT;
-}
-
 } // namespace
 
 VulkanImages::VulkanImages(VulkanDevice &device, const gpu::ImageSpec &spec, const SharedMemory &memory)
@@ -36,7 +29,7 @@ VulkanImages::VulkanImages(VulkanDevice &device, const gpu::ImageSpec &spec, con
 VulkanImages::~VulkanImages()
 {
 	for (const Image &image : images_)
-		if (image.lastWork && !image.lastWork->wait(workLimit)) {
+		if (image.lastWork && image.lastWork->wait(workLimit) == Completion::Outcome::notYet) {
 			log::error("the application's GPU still works on a swapchain {} s after its last use; its images are left alone",
 					   inSeconds(workLimit));
 			return;
@@ -99,7 +92,7 @@ void VulkanImages::recordBarriers(Image &image, VkFormat format)
 								 .srcQueueFamilyIndex = VK_QUEUE_FAMILY_EXTERNAL,
 								 .dstQueueFamilyIndex = device_.queueFamily,
 								 .image = image.image,
-								 .subresourceRange = {aspectOf(format), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
+								 .subresourceRange = {gpu::aspectOf(format), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS}};
 	record(image.takeOver, barrier, false);
 	// An image nothing was drawn into has no contents to keep, and this device has not seen it in any layout yet.
 	VkImageMemoryBarrier enter = barrier;
