@@ -2,12 +2,10 @@
 #include "runtime/ipc/shared_memory.h"
 #include "runtime/motion/pose_history.h"
 #include "tests/e2e/common/private_service.h"
-#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 using namespace arift;
@@ -29,22 +27,12 @@ target = "offscreen"
 motion = "natural"
 )";
 
-ipc::Socket connectTo(const PrivateService &service)
-{
-	UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-	sockaddr_un address{};
-	address.sun_family = AF_UNIX;
-	const std::string path = (service.tree().root() / "runtime/arift/service.sock").string();
-	path.copy(address.sun_path, sizeof(address.sun_path) - 1);
-	if (::connect(fd.get(), reinterpret_cast<const sockaddr *>(&address), sizeof(address)) != 0) throw std::runtime_error("connect");
-	return ipc::Socket(std::move(fd));
-}
-
 /// An application reduced to its messages.
 class Application
 {
 public:
-	explicit Application(const PrivateService &service, const std::string &name = "played application") : requests_(connectTo(service))
+	explicit Application(const PrivateService &service, const std::string &name = "played application")
+		: requests_(connectTo(service.tree()).value())
 	{
 		ipc::Hello hello;
 		ipc::copyText(hello.applicationName, name);
@@ -96,28 +84,6 @@ nlohmann::json clientNamed(const nlohmann::json &status, const std::string &name
 	return nullptr;
 }
 
-/// Asks for the status until it is as wanted.
-template <typename Wanted> bool eventually(PrivateService &service, Wanted wanted)
-{
-	for (const XrTime end = realTime() + plenty; realTime() < end;)
-		if (wanted(service.status())) return true;
-	return false;
-}
-
-struct Statistics {
-	double mean = 0, deviation = 0, lit = 0; ///< of the green channel; lit: share of pixels that are not black
-};
-Statistics statisticsOf(const PanelPicture &picture, uint32_t left, uint32_t right)
-{
-	double sum = 0, squares = 0, lit = 0, count = 0;
-	for (uint32_t y = picture.height / 4; y < picture.height * 3 / 4; ++y)
-		for (uint32_t x = left; x < right; ++x) {
-			const double value = picture.rgba[(size_t(y) * picture.width + x) * 4 + 1];
-			sum += value, squares += value * value, lit += value > 8, count += 1;
-		}
-	return {sum / count, std::sqrt(squares / count - sum / count * (sum / count)), lit / count};
-}
-
 /// One service for all tests that leave it as they found it.
 class Running : public testing::Test
 {
@@ -160,8 +126,7 @@ TEST_F(Running, ThePanelShowsTheRoom)
 	const PanelPicture panel = service().screenshot();
 	ASSERT_EQ(panel.width, 1280u);
 	ASSERT_EQ(panel.height, 800u);
-	for (const auto &[left, right] : {std::pair{200u, 440u}, std::pair{840u, 1080u}}) {
-		const Statistics eye = statisticsOf(panel, left, right);
+	for (const Statistics &eye : statisticsOfEyes(panel)) {
 		EXPECT_GT(eye.lit, 0.9) << "the middle of an eye is not black";
 		EXPECT_GT(eye.mean, 30);
 		EXPECT_LT(eye.mean, 230);
@@ -305,7 +270,7 @@ TEST_F(Running, AMalformedClientIsClosedAndOthersGoOn)
 TEST_F(Running, RandomBytesCloseOnlyTheirConnection)
 {
 	for (const size_t size : {size_t(0), size_t(1), size_t(8), size_t(100), ipc::maxMessageSize + 1}) {
-		ipc::Socket socket = connectTo(service());
+		ipc::Socket socket = connectTo(service().tree()).value();
 		const std::vector<std::byte> bytes(size, std::byte(0xa5));
 		if (size > 0) { ASSERT_GE(::send(socket.fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL), 0); }
 		if (size == 0) socket.hangUp();
@@ -317,7 +282,7 @@ TEST_F(Running, RandomBytesCloseOnlyTheirConnection)
 
 TEST_F(Running, AnotherProtocolIsRefusedWithASentence)
 {
-	ipc::Requests requests(connectTo(service()));
+	ipc::Requests requests(connectTo(service().tree()).value());
 	ipc::Hello hello;
 	hello.protocol = ipc::protocol + 1;
 	const auto answer = requests.ask<ipc::Welcome>(hello, plenty);
@@ -369,6 +334,15 @@ TEST(Starting, AMissingRigIsToldToWhoConnects)
 	const PrivateTree tree;
 	ChildProcess service({(programDirectory() / "arift-service").string(), "--set", "headset.rig=no_such_rig"}, tree.environment(),
 						 tree.root() / "log");
+	std::optional<ipc::Socket> socket;
+	for (const XrTime end = realTime() + plenty; !socket && !service.wait(std::chrono::milliseconds(5)) && realTime() < end;)
+		socket = connectTo(tree);
+	ASSERT_TRUE(socket) << "it listens before it opens anything\n" << service.output();
+	ipc::Requests application(std::move(*socket));
+	const auto answer = application.ask<ipc::Welcome>(ipc::Hello{}, plenty);
+	EXPECT_EQ(answer.how, ipc::Answered::refused);
+	EXPECT_EQ(answer.failure.result, XR_ERROR_RUNTIME_UNAVAILABLE);
+	EXPECT_NE(ipc::textOf(answer.failure.text).find("no_such_rig"), std::string::npos) << ipc::textOf(answer.failure.text);
 	EXPECT_EQ(service.wait(std::chrono::seconds(60)), 1);
 	EXPECT_NE(service.output().find("no_such_rig"), std::string::npos) << service.output();
 }
