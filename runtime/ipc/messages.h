@@ -17,6 +17,7 @@ constexpr uint32_t protocol = 2;       // raised with every change of this file 
 constexpr XrDuration openingLimit = 60 * second;
 constexpr uint32_t maxFds = 16;    // per message
 constexpr uint32_t maxImages = 8;  // per swapchain
+constexpr uint32_t maxArrayLayers = 64; // per image, faces included
 constexpr uint32_t maxLayers = 16; // per submission
 
 enum class MessageType : uint32_t {

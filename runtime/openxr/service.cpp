@@ -22,7 +22,7 @@ ipc::Socket connect()
 /// The service's first word. It may still be opening its devices.
 ipc::Answer<ipc::Welcome> greet(ipc::Requests &requests, const ipc::Hello &hello)
 {
-	auto answer = requests.ask<ipc::Welcome>(hello, launchLimit);
+	auto answer = requests.ask<ipc::Welcome>(hello, Service::openingLimit);
 	if (!answer) {
 		const bool refused = answer.how == ipc::Answered::refused;
 		throw Error(refused ? XrResult(answer.failure.result) : XR_ERROR_RUNTIME_UNAVAILABLE, "arift-service: {}",

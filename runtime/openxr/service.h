@@ -19,8 +19,8 @@ public:
 	static constexpr XrDuration silenceLimit = 2 * second;
 	/// How long a request may take (real time). A software renderer allocates and clears images in it.
 	static constexpr XrDuration requestLimit = 5 * second;
-	/// The first session may come while the service is still opening its devices, for which it allows itself 15 s.
-	static constexpr XrDuration openingLimit = 20 * second;
+	/// The first session may come while the service is still opening its devices: its own reason comes before this limit.
+	static constexpr XrDuration openingLimit = ipc::openingLimit + 5 * second;
 
 	/// Connects, and starts the service when none runs. Throws XR_ERROR_RUNTIME_UNAVAILABLE with the sentence that says what to do.
 	explicit Service(const ipc::Hello &hello);

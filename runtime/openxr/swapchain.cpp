@@ -1,4 +1,6 @@
 #include "runtime/openxr/swapchain.h"
+#include <algorithm>
+#include <bit>
 #include <time.h>
 
 namespace arift::openxr
@@ -26,6 +28,11 @@ void requireCreateInfo(const XrSwapchainCreateInfo &info, const ipc::Welcome &we
 					welcome.maxHeight);
 	if (info.sampleCount > 1)
 		throw Error(XR_ERROR_FEATURE_UNSUPPORTED, "{} samples are more than maxSwapchainSampleCount", info.sampleCount);
+	if (info.mipCount > uint32_t(std::bit_width(std::max(info.width, info.height))))
+		throw Error(XR_ERROR_VALIDATION_FAILURE, "{} mip levels are more than {}x{} has", info.mipCount, info.width, info.height);
+	if (uint64_t(info.arraySize) * info.faceCount > ipc::maxArrayLayers)
+		throw Error(XR_ERROR_FEATURE_UNSUPPORTED, "{} layers of {} faces are more than {}", info.arraySize, info.faceCount,
+					uint32_t(ipc::maxArrayLayers));
 	if (info.faceCount == 6 && info.width != info.height)
 		throw Error(XR_ERROR_VALIDATION_FAILURE, "a cube's faces are square, not {}x{}", info.width, info.height);
 }

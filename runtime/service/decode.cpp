@@ -43,7 +43,7 @@ void check(const ipc::CreateSwapchain &message)
 	require(message.imageCount >= 1 && message.imageCount <= ipc::maxImages, "swapchain: number of images out of range");
 	require(spec.width >= 1 && spec.width <= Quota::extent && spec.height >= 1 && spec.height <= Quota::extent,
 			"swapchain: extent out of range");
-	require(spec.arrayLayers >= 1 && spec.arrayLayers <= 64, "swapchain: number of array layers out of range");
+	require(spec.arrayLayers >= 1 && spec.arrayLayers <= ipc::maxArrayLayers, "swapchain: number of array layers out of range");
 	require(spec.mipLevels >= 1 && spec.mipLevels <= uint32_t(std::bit_width(std::max(spec.width, spec.height))),
 			"swapchain: number of mip levels out of range");
 	require(spec.samples >= 1 && spec.samples <= 16 && (spec.samples & (spec.samples - 1)) == 0, "swapchain: sample count out of range");

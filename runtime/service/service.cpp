@@ -40,6 +40,7 @@ Service::Service(Options options, ipc::Listener &listener)
 		for (Client &client : *clients) client.describe(list);
 	};
 	opener_ = std::jthread([this] { open(); });
+	heart_ = std::jthread([this](std::stop_token stop) { beat(stop); });
 }
 
 Service::~Service()
@@ -50,6 +51,15 @@ Service::~Service()
 	clients_.update([&](std::list<Client> &clients) { leaving.swap(clients); });
 	leaving.clear();
 	system_.reset();
+}
+
+/// A thread of its own: nothing that the main loop waits for may look like the service's death.
+void Service::beat(const std::stop_token &stop)
+{
+	while (!stop.stop_requested()) {
+		world_.system->heartbeat.store(realTime(), std::memory_order_relaxed);
+		std::this_thread::sleep_for(std::chrono::nanoseconds(heartbeatPeriod));
+	}
 }
 
 void Service::open()
@@ -101,7 +111,6 @@ std::string Service::run()
 {
 	XrTime failedAt = 0;
 	while (!stopping_ && !mayLeave()) {
-		world_.system->heartbeat.store(realTime(), std::memory_order_relaxed);
 		auto socket = listener_.accept(realTime() + heartbeatPeriod);
 		removeFinished();
 		if (socket && clients_.lock()->size() < maxClients) {

@@ -32,6 +32,7 @@ public:
 
 private:
 	void open();
+	void beat(const std::stop_token &stop);
 	void removeFinished();
 	void admit(ipc::Socket socket);
 	bool mayLeave();
@@ -44,7 +45,7 @@ private:
 	std::unique_ptr<System> system_; ///< made by opener_; read elsewhere once world_.opened says so
 	Guarded<std::list<Client>> clients_{};
 	XrTime lastSeen_ = 0; ///< real: when the newest client was there
-	std::jthread opener_;
+	std::jthread opener_, heart_;
 };
 
 } // namespace arift
