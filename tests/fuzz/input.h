@@ -1,5 +1,6 @@
 // What the fuzzers share: a property that must hold, and the input as a file for readers that take a path.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -8,6 +9,7 @@
 #include <fstream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <unistd.h>
 
 namespace arift::fuzz
@@ -21,6 +23,18 @@ inline void require(bool holds, const char *what)
 	std::abort();
 }
 
+using Bytes = std::span<const uint8_t>;
+
+/// Inputs of several files: what comes before the next line of four dashes; `rest` is what follows that line.
+inline Bytes nextPart(Bytes &rest)
+{
+	constexpr std::string_view line = "----\n";
+	const auto found = std::search(rest.begin(), rest.end(), line.begin(), line.end());
+	const Bytes part = rest.first(size_t(found - rest.begin()));
+	rest = found == rest.end() ? Bytes() : rest.subspan(part.size() + line.size());
+	return part;
+}
+
 /// A folder of this process in memory; removed when the process ends in good order.
 class Folder
 {
@@ -32,7 +46,7 @@ public:
 		std::filesystem::remove_all(path_, ignored);
 	}
 	const std::filesystem::path &path() const { return path_; }
-	std::filesystem::path write(const std::string &name, std::span<const uint8_t> bytes) const
+	std::filesystem::path write(const std::string &name, Bytes bytes) const
 	{
 		const std::filesystem::path file = path_ / name;
 		std::filesystem::create_directories(file.parent_path());

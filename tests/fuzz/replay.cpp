@@ -5,9 +5,7 @@
 #include "runtime/base/error.h"
 #include "runtime/base/pose.h"
 #include "tests/fuzz/input.h"
-#include <algorithm>
 #include <cmath>
-#include <string_view>
 #include <vector>
 
 using namespace arift;
@@ -15,7 +13,7 @@ using namespace arift;
 namespace
 {
 
-using Bytes = std::span<const uint8_t>;
+using fuzz::Bytes;
 
 void checkTrajectory(const Trajectory &trajectory)
 {
@@ -34,20 +32,10 @@ void readBrdFile(const fuzz::Folder &folder, Bytes bytes)
 	checkTrajectory(replay::headTrajectory(recording, axes));
 }
 
-/// Up to the next line of four dashes; `rest` is what follows it.
-Bytes nextPart(Bytes &rest)
-{
-	constexpr std::string_view line = "----\n";
-	const auto found = std::search(rest.begin(), rest.end(), line.begin(), line.end());
-	const Bytes part = rest.first(size_t(found - rest.begin()));
-	rest = found == rest.end() ? Bytes() : rest.subspan(part.size() + line.size());
-	return part;
-}
-
 void readEurocFolder(const fuzz::Folder &folder, Bytes rest)
 {
-	folder.write("euroc/cam0/data.csv", nextPart(rest));
-	folder.write("euroc/imu0/data.csv", nextPart(rest));
+	folder.write("euroc/cam0/data.csv", fuzz::nextPart(rest));
+	folder.write("euroc/imu0/data.csv", fuzz::nextPart(rest));
 	folder.write("euroc/cam0/data/1.png", rest);
 	const replay::EurocRecording recording = replay::readEuroc(folder.path() / "euroc");
 	const replay::RecordedCamera &camera = recording.cameras[0];
