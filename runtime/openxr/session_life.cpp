@@ -23,17 +23,14 @@ void SessionLife::announce(XrSession handle)
 
 void SessionLife::takeNews()
 {
-	life_.update([this](Life &life) { takeNewsLocked(life); });
+	takeNewsLocked(*life_.lock());
 }
 
 bool SessionLife::takeEvent(XrEventDataBuffer &event)
 {
-	bool found = false;
-	life_.update([&](Life &life) {
-		takeNewsLocked(life);
-		found = life.events.pop(event);
-	});
-	return found;
+	const auto life = life_.lock();
+	takeNewsLocked(*life);
+	return life->events.pop(event);
 }
 
 void SessionLife::lose()

@@ -43,7 +43,7 @@ public:
 	/// For looking, and for waiting until it is as wanted.
 	Guarded<Life>::Access lock() { return life_.lock(); }
 
-	/// Takes what the service has told since. It may come at any time.
+	/// Takes what the service has told since. It may come at any time, and nobody waits for it.
 	void takeNews();
 	/// Takes news, and the oldest event if there is one.
 	bool takeEvent(XrEventDataBuffer &event);

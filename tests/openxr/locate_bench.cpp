@@ -1,4 +1,5 @@
-// What the calls cost that an application makes several times a frame, through the entry points, against live shared pages.
+// What the calls cost that an application makes several times a frame, through the entry points, against live shared pages: a tracker
+// writes a thousand samples per second, and every call asks for another time.
 #include "tests/openxr/application.h"
 #include "tests/openxr/fake_service.h"
 #include <benchmark/benchmark.h>
@@ -14,12 +15,11 @@ struct Scene {
 	XrSession session = application.session();
 	XrSpace local = application.space(session, XR_REFERENCE_SPACE_TYPE_LOCAL);
 	XrSpace view = application.space(session, XR_REFERENCE_SPACE_TYPE_VIEW);
-	XrTime newest = realTime();
+	const XrTime newest = realTime();
 
 	Scene()
 	{
-		for (XrTime time = newest - second; time <= newest; time += millisecond)
-			service.poses().push({time, rotationAbout({0, 1, 0}, inSeconds(time % second)), {0, 1, 0}, {0, 0, 0}});
+		for (XrTime time = newest - second; time <= newest; time += millisecond) push(time);
 		ipc::TimingTable timing{};
 		timing.displayPeriod = 16'690'000;
 		timing.latchBeforeDisplay = 20 * millisecond;
@@ -28,20 +28,44 @@ struct Scene {
 		ipc::ViewTable views = *service.system().views.read();
 		views.viewOffset = 1;
 		service.system().views.write(views);
+		tracker_ = std::jthread([this](const std::stop_token &stop) {
+			for (XrTime time = newest + millisecond; !stop.stop_requested(); time += millisecond) {
+				while (realTime() < time) std::this_thread::sleep_for(std::chrono::nanoseconds(time - realTime()));
+				push(time);
+			}
+		});
 	}
+	void push(XrTime time)
+	{
+		latest_ = time;
+		service.poses().push({time, rotationAbout({0, 1, 0}, inSeconds(time % second)), {0, 1, 0}, {0, 0, 0}});
+	}
+	/// Another one each time, about two frames ahead.
+	XrTime nextTime()
+	{
+		asked_ = (asked_ + 7919) % (8 * millisecond);
+		return latest_ + 30 * millisecond + asked_;
+	}
+
+private:
+	std::atomic<XrTime> latest_{0};
+	XrDuration asked_ = 0;
+	std::jthread tracker_;
 };
 
 void locateViews(benchmark::State &state)
 {
 	Scene scene;
-	const XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO, nullptr, XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO,
-								scene.newest + 30 * millisecond, scene.local};
+	XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO, nullptr, XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO, 0, scene.local};
 	const auto locate = scene.application.get<PFN_xrLocateViews>("xrLocateViews");
 	XrViewState viewState{XR_TYPE_VIEW_STATE};
 	XrView views[2] = {{XR_TYPE_VIEW}, {XR_TYPE_VIEW}};
 	uint32_t count = 0;
-	for (auto _ : state)
-		if (locate(scene.session, &info, &viewState, 2, &count, views) != XR_SUCCESS) state.SkipWithError("xrLocateViews failed");
+	for (auto _ : state) {
+		info.displayTime = scene.nextTime();
+		if (locate(scene.session, &info, &viewState, 2, &count, views) != XR_SUCCESS || viewState.viewStateFlags == 0)
+			state.SkipWithError("xrLocateViews found nothing");
+	}
 }
 BENCHMARK(locateViews);
 
@@ -52,8 +76,8 @@ void locateSpaceWithVelocity(benchmark::State &state)
 	XrSpaceVelocity velocity{XR_TYPE_SPACE_VELOCITY};
 	XrSpaceLocation location{XR_TYPE_SPACE_LOCATION, &velocity};
 	for (auto _ : state)
-		if (locate(scene.view, scene.local, scene.newest + 30 * millisecond, &location) != XR_SUCCESS)
-			state.SkipWithError("xrLocateSpace failed");
+		if (locate(scene.view, scene.local, scene.nextTime(), &location) != XR_SUCCESS || location.locationFlags == 0)
+			state.SkipWithError("xrLocateSpace found nothing");
 }
 BENCHMARK(locateSpaceWithVelocity);
 
