@@ -165,3 +165,9 @@ TEST_F(ConfigFile, WrongOverridesAreNamed)
 }
 
 TEST_F(ConfigFile, AMissingFileIsNamed) { EXPECT_THROW(readConfig(root_ / "none.toml", {}), InputError); }
+
+TEST_F(ConfigFile, LettersOutsideQuotesAreNamed)
+{
+	EXPECT_TRUE(problem("[headset]\nrig = \u025emine").starts_with("config.toml:2: "));
+	EXPECT_EQ(read("", {"headset.rig=\u00e9t\u00e9"}).rig, "\u00e9t\u00e9") << "a bare word in an override is a text";
+}
