@@ -116,6 +116,12 @@ void PrivateService::set(ipc::Setting setting, float value)
 	if (!answer) fail("SetSetting", answer.failure);
 }
 
+void PrivateService::recenter()
+{
+	const auto answer = connection_->command(ipc::Recenter{}, answerLimit);
+	if (!answer) fail("Recenter", answer.failure);
+}
+
 bool eventually(PrivateService &service, const std::function<bool(const nlohmann::json &)> &wanted, XrDuration limit)
 {
 	for (const XrTime end = realTime() + limit; realTime() < end;)

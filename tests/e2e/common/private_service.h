@@ -39,6 +39,7 @@ public:
 	nlohmann::json status(bool resetFigures = false);
 	PanelPicture screenshot(ipc::PictureKind kind = ipc::PictureKind::panel);
 	void set(ipc::Setting setting, float value);
+	void recenter();
 
 private:
 	[[noreturn]] void fail(const std::string &what, const ipc::Failed &failure);

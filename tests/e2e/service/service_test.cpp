@@ -263,7 +263,7 @@ TEST_F(Running, AMalformedClientIsClosedAndOthersGoOn)
 	submission.layerCount = 1; // a projection layer of a swapchain that is not there
 	ASSERT_EQ(bad.frames->send(submission, realTime() + plenty), ipc::Transfer::done);
 	EXPECT_TRUE(eventually(service(), [](const auto &status) { return clientNamed(status, "hostile").is_null(); }));
-	EXPECT_EQ(bad.requests().command(ipc::Recenter{}, plenty).how, ipc::Answered::hungUp);
+	EXPECT_EQ(bad.requests().ask<ipc::SessionCreated>(ipc::CreateSession{}, plenty).how, ipc::Answered::hungUp);
 	for (uint64_t i = 1; i <= 5; ++i) EXPECT_TRUE(good.frame(i));
 }
 
@@ -313,10 +313,12 @@ TEST_F(Running, SettingsAndRecentringReachApplications)
 	EXPECT_THROW(service().set(ipc::Setting::viewOffset, 2), std::runtime_error);
 	const ipc::SharedPageView<ipc::ClientPage> page(std::move(application.welcome.fds[2]));
 	const uint64_t events = page->eventCount.load();
-	ASSERT_TRUE(application.requests().command(ipc::Recenter{}, plenty));
+	service().recenter();
 	EXPECT_EQ(system->views.read()->recenterCount, 1u);
 	ASSERT_EQ(page->eventCount.load(), events + 1);
 	EXPECT_EQ(page->events[events % ipc::ClientPage::eventSlots].read()->type, ipc::EventType::recentered);
+	EXPECT_EQ(application.requests().command(ipc::Recenter{}, plenty).how, ipc::Answered::hungUp) << "that is for monitors to ask";
+	EXPECT_EQ(system->views.read()->recenterCount, 1u);
 }
 
 TEST(Starting, AWrongConfigurationEndsWithOneSentence)
