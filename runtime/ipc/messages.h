@@ -15,10 +15,10 @@ constexpr uint32_t protocol = 2;       // raised with every change of this file 
 /// Real time in which the service has opened its devices and answers Hello and CreateSession: a second or two, much more on a machine that
 /// is busy otherwise. Clients wait a little longer than this, so that they hear its reason.
 constexpr XrDuration openingLimit = 60 * second;
-constexpr uint32_t maxFds = 16;    // per message
-constexpr uint32_t maxImages = 8;  // per swapchain
+constexpr uint32_t maxFds = 16;         // per message
+constexpr uint32_t maxImages = 8;       // per swapchain
 constexpr uint32_t maxArrayLayers = 64; // per image, faces included
-constexpr uint32_t maxLayers = 16; // per submission
+constexpr uint32_t maxLayers = 16;      // per submission
 
 enum class MessageType : uint32_t {
 	// application or monitor -> service -> back

@@ -21,10 +21,7 @@ void SessionLife::announce(XrSession handle)
 	change([](Life &) {});
 }
 
-void SessionLife::takeNews()
-{
-	takeNewsLocked(*life_.lock());
-}
+void SessionLife::takeNews() { takeNewsLocked(*life_.lock()); }
 
 bool SessionLife::takeEvent(XrEventDataBuffer &event)
 {
