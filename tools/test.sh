@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 usage() {
 	cat <<'TEXT'
 usage: tools/test.sh [--quick] [--all] [--long] [--only STAGE]...
-  --quick       packages, format and the release build's tests without the end-to-end ones: what every commit must pass
+  --quick       packages, format and every test of the release build: what every commit must pass
   --all         clang-tidy reads every file, however long it takes, not only those that changed
   --long        the long figures as well (tests labelled "long")
   --only STAGE  run this stage alone (may be given again): packages format release asan fuzz tsan tidy bench
@@ -17,13 +17,11 @@ TEXT
 all_stages=(packages format release asan fuzz tsan tidy bench)
 stages=()
 tidy_all=false
-quick=false
 long=false
 while [ $# -gt 0 ]; do
 	case "$1" in
 	--quick)
 		stages=(packages format release)
-		quick=true
 		;;
 	--all) tidy_all=true ;;
 	--long) long=true ;;
@@ -57,7 +55,6 @@ export NINJA_STATUS='[%f/%t] ' CTEST_OUTPUT_ON_FAILURE=1 CCACHE_NOHASHDIR=1
 unset ARIFT_CONFIG ARIFT_SERVICE XR_RUNTIME_JSON XR_ENABLE_API_LAYERS DISPLAY WAYLAND_DISPLAY
 label_filter=(-LE long)
 if $long; then label_filter=(); fi
-if $quick; then label_filter=(-LE 'long|e2e'); fi
 suppressions=$PWD/tests/suppressions
 sanitizers=(
 	ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1
