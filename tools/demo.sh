@@ -123,7 +123,10 @@ started=$((($(date +%s%N) - began) / 1000000))
 
 [ ${#app[@]} -gt 0 ] || app=("$bin/hologram_cube")
 echo "running ${app[*]} for $seconds s"
-(cd "$here" && exec "${app[@]}") >"$work/app.log" 2>&1 &
+# Its keyboard is one that nobody types on: hello_xr ends with the first key, and with the end of its input.
+mkfifo "$work/keyboard"
+exec 3<>"$work/keyboard"
+(cd "$here" && exec "${app[@]}") <&3 >"$work/app.log" 2>&1 &
 app_pid=$!
 app_ended() {
 	cat "$work/app.log" >&2
