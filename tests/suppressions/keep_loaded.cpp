@@ -1,6 +1,7 @@
 // Linked into the programs of a build with AddressSanitizer: what the software driver and the validation layer keep until the process ends
 // can be told from leaks of ours only while their modules are loaded, and the Vulkan loader unloads them with its last instance.
 #include <dlfcn.h>
+#include <initializer_list>
 
 namespace
 {
