@@ -3,6 +3,7 @@
 #pragma once
 #include "runtime/base/xr.h"
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -40,7 +41,7 @@ public:
 	void displayed(XrTime display);
 
 	/// Measured; the nominal one until it is.
-	XrDuration period() const { return XrDuration(period_ + 0.5); }
+	XrDuration period() const { return std::llround(period_); }
 	/// What composing is expected to cost: nine of ten recent images took no longer; never more than four periods.
 	XrDuration cost() const { return cost_; }
 	uint64_t missed() const { return missed_; }

@@ -24,7 +24,7 @@ Client::Client(ipc::Socket socket, World &world)
 	  socket_(std::move(socket)),
 	  peerPid_(uint32_t(ipc::peerOf(socket_).pid)),
 	  page_(std::make_shared<ipc::SharedPage<ipc::ClientPage>>("arift-client")),
-	  thread_([this](std::stop_token stop) { serve(stop); })
+	  thread_([this](const std::stop_token &stop) { serve(stop); })
 {
 }
 
@@ -42,7 +42,7 @@ void Client::refuse(const ipc::Header &request, XrResult result, const std::stri
 	reply(request, failed);
 }
 
-void Client::serve(std::stop_token stop)
+void Client::serve(const std::stop_token &stop)
 {
 	ipc::Received received;
 	try {

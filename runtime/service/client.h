@@ -31,7 +31,7 @@ private:
 		std::shared_ptr<Session> session;
 	};
 
-	void serve(std::stop_token stop);
+	void serve(const std::stop_token &stop);
 	void answer(const Request &request);
 	void answer(const ipc::Hello &message);
 	void answer(const ipc::CreateSession &message);

@@ -12,7 +12,7 @@ Session::Session(uint32_t number, Clock &clock, ipc::Socket channel, FindSwapcha
 	  find_(std::move(find)),
 	  page_(std::move(page)),
 	  onMalformed_(std::move(onMalformed)),
-	  thread_([this](std::stop_token stop) { serve(stop); })
+	  thread_([this](const std::stop_token &stop) { serve(stop); })
 {
 }
 
@@ -154,7 +154,7 @@ void Session::dropOldHold()
 	finish(afterwards);
 }
 
-void Session::serve(std::stop_token stop)
+void Session::serve(const std::stop_token &stop)
 {
 	ipc::Received received;
 	try {

@@ -63,7 +63,7 @@ private:
 		std::optional<Clock::Hold> released;
 	};
 
-	void serve(std::stop_token stop);
+	void serve(const std::stop_token &stop);
 	void take(const ipc::WaitFrame &message);
 	void take(const ipc::Submission &message);
 	void take(const ipc::Relinquish &message);

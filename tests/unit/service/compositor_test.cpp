@@ -159,7 +159,7 @@ TEST_F(CompositorTest, ALayerWhoseImageIsGoneIsNotDrawn)
 
 TEST_F(CompositorTest, PicturesAreHandedOut)
 {
-	std::jthread world([&, hold = Clock::Hold(*clock_)](std::stop_token stop) {
+	std::jthread world([&, hold = Clock::Hold(*clock_)](const std::stop_token &stop) {
 		while (!stop.stop_requested()) clock_->sleepUntil(clock_->now() + period, stop);
 	});
 	std::optional<Picture> panel, eyes;
