@@ -1,6 +1,5 @@
 // Where the service's socket, lock and log lie, and that nobody else can put a socket there.
 #pragma once
-#include "runtime/base/user_directories.h"
 #include <filesystem>
 
 namespace arift::ipc
@@ -13,6 +12,5 @@ std::filesystem::path socketPath();
 std::filesystem::path lockPath();
 /// $XDG_STATE_HOME/arift/service.log, else ~/.local/state/arift/service.log; folders are made.
 std::filesystem::path logPath();
-using arift::configDirectory;
 
 } // namespace arift::ipc

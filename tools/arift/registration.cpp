@@ -1,7 +1,7 @@
 // Which runtime OpenXR applications load: the loader reads openxr/1/active_runtime[.ARCHITECTURE].json (loader specification, "Linux
 // Manifest Search Behavior").
 #include "runtime/base/error.h"
-#include "runtime/ipc/runtime_directory.h"
+#include "runtime/base/user_directories.h"
 #include "tools/arift/commands.h"
 #include <array>
 #include <cstdlib>
@@ -18,7 +18,7 @@ namespace
 constexpr std::array names{"active_runtime.json", "active_runtime.x86_64.json"};
 constexpr const char *backupSuffix = ".arift-backup";
 
-fs::path registryFolder(bool everybody) { return (everybody ? fs::path("/etc/xdg") : ipc::configDirectory().parent_path()) / "openxr/1"; }
+fs::path registryFolder(bool everybody) { return (everybody ? fs::path("/etc/xdg") : configDirectory().parent_path()) / "openxr/1"; }
 
 /// The manifest of this build or installation: beside bin in a build tree, in share/openxr/1 of an installation.
 fs::path ownManifest()

@@ -9,27 +9,10 @@ namespace arift::e2e
 
 PrivateTree::PrivateTree()
 {
-	std::string pattern = (std::filesystem::temp_directory_path() / "arift-test-XXXXXX").string();
-	if (!::mkdtemp(pattern.data())) throw std::runtime_error("no folder can be made: " + pattern);
-	root_ = pattern;
 	for (const char *folder : {"runtime", "config", "state"}) {
-		std::filesystem::create_directory(root_ / folder);
-		std::filesystem::permissions(root_ / folder, std::filesystem::perms::owner_all);
+		std::filesystem::create_directory(root() / folder);
+		std::filesystem::permissions(root() / folder, std::filesystem::perms::owner_all);
 	}
-}
-
-PrivateTree::~PrivateTree()
-{
-	std::error_code ignored;
-	std::filesystem::remove_all(root_, ignored);
-}
-
-std::filesystem::path PrivateTree::write(const std::string &name, const std::string &text) const
-{
-	const std::filesystem::path file = root_ / name;
-	std::filesystem::create_directories(file.parent_path());
-	std::ofstream(file) << text;
-	return file;
 }
 
 std::map<std::string, std::string> PrivateTree::environment() const
@@ -41,9 +24,9 @@ std::map<std::string, std::string> PrivateTree::environment() const
 		if (equals != std::string::npos) all[text.substr(0, equals)] = text.substr(equals + 1);
 	}
 	for (const char *name : {"DISPLAY", "WAYLAND_DISPLAY", "ARIFT_CONFIG", "XR_API_LAYER_PATH", "XR_ENABLE_API_LAYERS"}) all.erase(name);
-	all["XDG_RUNTIME_DIR"] = (root_ / "runtime").string();
-	all["XDG_CONFIG_HOME"] = (root_ / "config").string();
-	all["XDG_STATE_HOME"] = (root_ / "state").string();
+	all["XDG_RUNTIME_DIR"] = (root() / "runtime").string();
+	all["XDG_CONFIG_HOME"] = (root() / "config").string();
+	all["XDG_STATE_HOME"] = (root() / "state").string();
 	all["XR_RUNTIME_JSON"] = (programDirectory().parent_path() / "openxr_arift.json").string();
 	return all;
 }

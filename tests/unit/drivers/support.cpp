@@ -32,27 +32,6 @@ CameraGeometry PlainLens::geometry(const XrPosef &cameraInHead) const
 	return geometry;
 }
 
-TemporaryFolder::TemporaryFolder()
-{
-	std::string name = (std::filesystem::temp_directory_path() / "arift-drivers-XXXXXX").string();
-	if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder: " + name);
-	path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder()
-{
-	std::error_code ignored;
-	std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path TemporaryFolder::write(const std::string &name, const std::string &content) const
-{
-	const auto file = path_ / name;
-	std::filesystem::create_directories(file.parent_path());
-	std::ofstream(file, std::ios::binary) << content;
-	return file;
-}
-
 std::vector<std::byte> fromHex(const std::string &text)
 {
 	std::istringstream stream(text);

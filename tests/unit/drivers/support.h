@@ -2,6 +2,7 @@
 #pragma once
 #include "runtime/base/pose.h"
 #include "runtime/device/driver.h"
+#include "tests/common/temporary_folder.h"
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,20 +19,6 @@ struct PlainLens {
 	XrVector3f ray(double x, double y) const;
 	glm::dvec2 project(const glm::dvec3 &cvDirection) const;
 	CameraGeometry geometry(const XrPosef &cameraInHead = identityPose) const;
-};
-
-/// A folder of the test's own, removed at the end.
-class TemporaryFolder
-{
-public:
-	TemporaryFolder();
-	~TemporaryFolder();
-	TemporaryFolder(const TemporaryFolder &) = delete;
-	const std::filesystem::path &path() const { return path_; }
-	std::filesystem::path write(const std::string &name, const std::string &content) const;
-
-private:
-	std::filesystem::path path_;
 };
 
 /// The bytes of a hexadecimal dump.

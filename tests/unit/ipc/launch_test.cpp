@@ -5,6 +5,7 @@
 #include "runtime/ipc/request.h"
 #include "runtime/ipc/runtime_directory.h"
 #include "runtime/ipc/spawn.h"
+#include "tests/common/temporary_folder.h"
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -26,14 +27,10 @@ class Launch : public testing::Test
 protected:
 	Launch()
 	{
-		char name[] = "/tmp/arift-test-XXXXXX";
-		root_ = ::mkdtemp(name);
 		for (const char *variable : {"XDG_RUNTIME_DIR", "XDG_STATE_HOME", "XDG_CONFIG_HOME"}) ::setenv(variable, root_.c_str(), 1);
 		::unsetenv("ARIFT_SERVICE");
 		::setenv("ARIFT_TEST_LIST", (root_ / "started").c_str(), 1);
 	}
-	~Launch() override { fs::remove_all(root_); }
-
 	std::vector<std::string> lines(const char *file) const
 	{
 		std::ifstream stream(root_ / file);
@@ -42,7 +39,8 @@ protected:
 		return result;
 	}
 
-	fs::path root_;
+	const test::TemporaryFolder folder_;
+	const fs::path root_ = folder_.path();
 };
 
 } // namespace

@@ -29,7 +29,7 @@ std::string imu()
 		   "         0.0, 0.0, 1.0, 0.0,\n         0.0, 0.0, 0.0, 1.0]\nrate_hz: 200\n";
 }
 
-void writeRecording(const tests::Scratch &scratch)
+void writeRecording(const tests::TemporaryFolder &scratch)
 {
 	scratch.write("mav0/cam0/sensor.yaml", camera(0.05));
 	scratch.write("mav0/cam1/sensor.yaml", camera(-0.05));
@@ -45,9 +45,9 @@ void expectNear(const XrVector3f &found, const XrVector3f &expected)
 
 TEST(EurocRig, PutsTheHeadMidwayBetweenTheCameras)
 {
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	writeRecording(scratch);
-	for (const std::filesystem::path &folder : {scratch.folder(), scratch.folder() / "mav0"}) {
+	for (const std::filesystem::path &folder : {scratch.path(), scratch.path() / "mav0"}) {
 		const Rig rig = rigFromEuroc(folder);
 		ASSERT_EQ(rig.cameras.size(), 2u);
 		expectNear(rig.cameras[0].cameraInHead.position, {-0.05f, 0, 0});
@@ -61,27 +61,27 @@ TEST(EurocRig, PutsTheHeadMidwayBetweenTheCameras)
 		EXPECT_EQ(lens.fx, 458.654);
 		EXPECT_EQ(lens.cy, 248.375);
 		EXPECT_EQ(lens.k[3], 1.76187114e-05);
-		EXPECT_NE(rig.name.find(scratch.folder().filename().string()), std::string::npos);
+		EXPECT_NE(rig.name.find(scratch.path().filename().string()), std::string::npos);
 	}
 }
 
 TEST(EurocRig, IsFoundWhereverTheRecordingIsPlayedFrom)
 {
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	writeRecording(scratch);
-	const std::string name = scratch.folder().filename().string();
+	const std::string name = scratch.path().filename().string();
 	for (const char *end : {"", "/", "/mav0", "/mav0/"})
-		EXPECT_EQ(rigFromEuroc(scratch.folder().string() + end).name, "EuRoC recording " + name);
-	std::filesystem::rename(scratch.folder() / "mav0", scratch.folder() / "MH_01");
-	for (const char *end : {"/MH_01", "/MH_01/"}) EXPECT_EQ(rigFromEuroc(scratch.folder().string() + end).name, "EuRoC recording MH_01");
+		EXPECT_EQ(rigFromEuroc(scratch.path().string() + end).name, "EuRoC recording " + name);
+	std::filesystem::rename(scratch.path() / "mav0", scratch.path() / "MH_01");
+	for (const char *end : {"/MH_01", "/MH_01/"}) EXPECT_EQ(rigFromEuroc(scratch.path().string() + end).name, "EuRoC recording MH_01");
 }
 
 TEST(EurocRig, AMonocularRecordingHasOneCameraForBothEyes)
 {
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	writeRecording(scratch);
-	std::filesystem::remove_all(scratch.folder() / "mav0/cam1");
-	const Rig rig = rigFromEuroc(scratch.folder());
+	std::filesystem::remove_all(scratch.path() / "mav0/cam1");
+	const Rig rig = rigFromEuroc(scratch.path());
 	ASSERT_EQ(rig.cameras.size(), 1u);
 	expectNear(rig.cameras[0].cameraInHead.position, {0, 0, 0});
 	EXPECT_NEAR(angleBetween(rig.cameras[0].cameraInHead.orientation, identityOrientation), 0, 1e-3);
@@ -93,10 +93,10 @@ TEST(EurocRig, AMonocularRecordingHasOneCameraForBothEyes)
 
 TEST(EurocRig, EquidistantLensesAreKannalaBrandt)
 {
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	writeRecording(scratch);
 	scratch.write("mav0/cam1/sensor.yaml", camera(-0.05, "equidistant"));
-	EXPECT_STREQ(rigFromEuroc(scratch.folder()).cameras[1].model.name(), "kannala_brandt");
+	EXPECT_STREQ(rigFromEuroc(scratch.path()).cameras[1].model.name(), "kannala_brandt");
 }
 
 TEST(EurocRig, DamagedFilesAreRefusedWithFileAndLine)
@@ -123,13 +123,13 @@ TEST(EurocRig, DamagedFilesAreRefusedWithFileAndLine)
 		{"imu0", "  data", "  date", "data is missing"},
 	};
 	for (const auto &row : table) {
-		const tests::Scratch scratch;
+		const tests::TemporaryFolder scratch;
 		writeRecording(scratch);
 		const std::filesystem::path file = std::filesystem::path("mav0") / row.file / "sensor.yaml";
-		const tests::Damaged damaged = tests::damage(tests::readAll(scratch.folder() / file), row.from, row.to);
+		const tests::Damaged damaged = tests::damage(tests::readAll(scratch.path() / file), row.from, row.to);
 		const std::string path = scratch.write(file, damaged.text).string();
 		try {
-			rigFromEuroc(scratch.folder());
+			rigFromEuroc(scratch.path());
 			ADD_FAILURE() << "accepted " << row.to;
 		} catch (const InputError &error) {
 			const std::string message = error.what();
@@ -145,12 +145,12 @@ TEST(EurocRig, DamagedFilesAreRefusedWithFileAndLine)
 TEST(EurocRig, MissingFilesAreNamed)
 {
 	for (const char *sensor : {"cam0", "cam1", "imu0"}) {
-		const tests::Scratch scratch;
+		const tests::TemporaryFolder scratch;
 		writeRecording(scratch);
-		const std::filesystem::path file = scratch.folder() / "mav0" / sensor / "sensor.yaml";
+		const std::filesystem::path file = scratch.path() / "mav0" / sensor / "sensor.yaml";
 		std::filesystem::remove(file);
 		try {
-			rigFromEuroc(scratch.folder());
+			rigFromEuroc(scratch.path());
 			ADD_FAILURE() << sensor;
 		} catch (const InputError &error) {
 			EXPECT_EQ(std::string(error.what()).rfind(file.string() + ": no such file", 0), 0u) << error.what();

@@ -36,7 +36,7 @@ const std::string good = R"(#polynomial coefficients for the DIRECT mapping func
 
 TEST(OCamFile, IsReadInItsOwnOrder)
 {
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	const CameraModel camera = readOCamFile(scratch.write("calib_results.txt", good).string());
 	EXPECT_EQ(camera.width(), 752u);
 	EXPECT_EQ(camera.height(), 480u);
@@ -53,7 +53,7 @@ TEST(OCamFile, IsReadInItsOwnOrder)
 
 TEST(OCamFile, LineEndsAndCommentsDoNotMatter)
 {
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	std::string text = "# another program's header\n\n";
 	for (const char letter : good) text += letter == '\n' ? std::string("\r\n") : std::string(1, letter);
 	const CameraModel camera = readOCamFile(scratch.write("dos.txt", text).string());
@@ -63,7 +63,7 @@ TEST(OCamFile, LineEndsAndCommentsDoNotMatter)
 TEST(OCamFile, WarnsAboutAnInverseThatDisagreesAndUsesTheDirectPolynomial)
 {
 	if (log::threshold() > log::Level::warning) GTEST_SKIP() << "ARIFT_LOG silences warnings";
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	const tests::Damaged off = tests::damage(good, "294.182260", "295.182260");
 	testing::internal::CaptureStderr();
 	const CameraModel bad = readOCamFile(scratch.write("off.txt", off.text).string());
@@ -106,7 +106,7 @@ TEST(OCamFile, DamagedFilesAreRefusedWithFileAndLine)
 		{"480 752", "480 752\n7 8 9", ":22: \"7\", expected nothing after the image size"},
 		{"480 752", "", "the file ends, expected the image size"},
 	};
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	for (const auto &row : table) {
 		const tests::Damaged damaged = tests::damage(good, row.from, row.to);
 		const std::string file = scratch.write("calib_results.txt", damaged.text).string();

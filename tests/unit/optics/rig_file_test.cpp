@@ -89,7 +89,7 @@ TEST(ShippedRig, LeftCameraIsUpright)
 
 TEST(RigFile, EveryCameraModelAndOptionalKey)
 {
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	scratch.write("left.txt",
 				  "5 -206.517 0 2.207161e-3 -4.879622e-6 1.865656e-8\n"
 				  "12 294.18226 152.28957 -12.191217 27.959546 8.241525 -1.970397 10.689256 1.871609 -6.437684 0.430037 3.215544 0.921484\n"
@@ -168,7 +168,7 @@ TEST(RigFile, DamagedFilesAreRefusedWithFileAndLine)
 		{"[panel]", "[.panel]", "expected bare key"},
 		{"[panel]", "[panel", ""},
 	};
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	const std::string good = tests::readAll(shipped);
 	for (const auto &row : table) {
 		const tests::Damaged damaged = tests::damage(good, row.from, row.to);
@@ -191,7 +191,7 @@ TEST(RigFile, DamagedFilesAreRefusedWithFileAndLine)
 
 TEST(RigFile, OneCameraIsRefused)
 {
-	const tests::Scratch scratch;
+	const tests::TemporaryFolder scratch;
 	const std::string good = tests::readAll(shipped);
 	const std::string file = scratch.write("one.toml", good.substr(0, good.rfind("[[cameras]]"))).string();
 	try {
@@ -204,10 +204,10 @@ TEST(RigFile, OneCameraIsRefused)
 
 TEST(RigPlaces, TheUsersThenWhatIsShipped)
 {
-	const tests::Scratch scratch;
-	const Environment config("XDG_CONFIG_HOME", scratch.folder().string());
+	const tests::TemporaryFolder scratch;
+	const Environment config("XDG_CONFIG_HOME", scratch.path().string());
 	const auto places = rigPlaces(defaultRig);
-	EXPECT_EQ(places[0], scratch.folder() / "arift/rigs/arift.toml");
+	EXPECT_EQ(places[0], scratch.path() / "arift/rigs/arift.toml");
 	EXPECT_EQ(places[1].filename(), "arift.toml");
 	EXPECT_TRUE(std::filesystem::equivalent(places[2], shipped));
 	const Environment ignored("XDG_CONFIG_HOME", "relative"), home("HOME", "/somewhere");

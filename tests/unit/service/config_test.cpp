@@ -1,9 +1,9 @@
 #include "drivers/synthetic/settings.h"
 #include "runtime/base/error.h"
 #include "runtime/service/config.h"
+#include "tests/common/temporary_folder.h"
 #include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 using namespace arift;
 namespace fs = std::filesystem;
@@ -14,13 +14,6 @@ namespace
 class ConfigFile : public testing::Test
 {
 protected:
-	ConfigFile()
-	{
-		char name[] = "/tmp/arift-test-XXXXXX";
-		root_ = ::mkdtemp(name);
-	}
-	~ConfigFile() override { fs::remove_all(root_); }
-
 	Config read(const std::string &text, const std::vector<std::string> &overrides = {})
 	{
 		const fs::path file = root_ / "config.toml";
@@ -37,7 +30,8 @@ protected:
 			return what.starts_with(prefix) ? what.substr(prefix.size()) : what;
 		}
 	}
-	fs::path root_;
+	const test::TemporaryFolder folder_;
+	const fs::path root_ = folder_.path();
 };
 
 } // namespace

@@ -1,9 +1,9 @@
 // Which Rig a configuration asks for, and what is said where there is none.
 #include "runtime/base/error.h"
 #include "runtime/service/headset.h"
+#include "tests/common/temporary_folder.h"
 #include <fstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 using namespace arift;
 namespace fs = std::filesystem;
@@ -14,13 +14,6 @@ namespace
 class RigOfConfig : public testing::Test
 {
 protected:
-	RigOfConfig()
-	{
-		char name[] = "/tmp/arift-test-XXXXXX";
-		root_ = ::mkdtemp(name);
-	}
-	~RigOfConfig() override { fs::remove_all(root_); }
-
 	void write(const fs::path &name, const std::string &text)
 	{
 		fs::create_directories((root_ / name).parent_path());
@@ -41,7 +34,8 @@ protected:
 			return what.starts_with(prefix) ? what.substr(prefix.size()) : what;
 		}
 	}
-	fs::path root_;
+	const test::TemporaryFolder folder_;
+	const fs::path root_ = folder_.path();
 };
 
 } // namespace
