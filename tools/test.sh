@@ -104,26 +104,30 @@ stage_asan() {
 	build asan && (export "${sanitizers[@]}" && run_ctest asan asan -LE 'long|layering|release')
 }
 
-# Each fuzzer runs its committed corpus as a test of the asan build already; here it also looks for new inputs.
+# fuzz FUZZER: says what it found; fails if that is anything
+fuzz() {
+	local fuzzer=$1 name=${1##*/} found
+	mkdir -p "$work/$name"
+	if (cd "$work" &&
+		"$OLDPWD/$fuzzer" -max_total_time=10 -timeout=5 -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$work/$name." \
+			"$work/$name" "$OLDPWD/tests/fuzz/corpus/${name#fuzz_}") >"$work/$name.log" 2>&1; then
+		sed -n "s/^.*number_of_executed_units: */fuzz: $name, ten seconds, inputs: /p" "$work/$name.log"
+		return 0
+	fi
+	tail -40 "$work/$name.log"
+	echo "fuzz: $name found an input that breaks it:"
+	for found in "$work/$name".*-*; do [ -f "$found" ] && { echo "$found"; base64 "$found"; }; done
+	return 1
+}
+# Each fuzzer runs its committed corpus as a test of the asan build already; here it also looks for new inputs, as many at a time as there
+# are processors.
 stage_fuzz() {
-	local fuzzer name result=0
 	build asan fuzzers || return 1
-	for fuzzer in build/asan/bin/fuzz_*; do
-		name=$(basename "$fuzzer")
-		mkdir -p "$work/$name"
-		echo "fuzz: $name, ten seconds"
-		if (cd "$work" && export "${sanitizers[@]}" &&
-			"$OLDPWD/$fuzzer" -max_total_time=10 -timeout=5 -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$work/$name." \
-				"$work/$name" "$OLDPWD/tests/fuzz/corpus/${name#fuzz_}") >"$work/$name.log" 2>&1; then
-			grep -E 'number_of_executed_units' "$work/$name.log"
-		else
-			tail -40 "$work/$name.log"
-			echo "fuzz: $name found an input that breaks it:"
-			for found in "$work/$name".*-*; do [ -f "$found" ] && { echo "$found"; base64 "$found"; }; done
-			result=1
-		fi
-	done
-	return $result
+	(
+		export "${sanitizers[@]}" work
+		export -f fuzz
+		printf '%s\0' build/asan/bin/fuzz_* | xargs -0 -P "$jobs" -n 1 bash -c 'fuzz "$0"'
+	)
 }
 
 stage_tsan() {

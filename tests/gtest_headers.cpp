@@ -1,0 +1,1 @@
+// Nothing of its own: the program whose precompiled headers the test programs use.
