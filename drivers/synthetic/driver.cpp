@@ -33,7 +33,7 @@ public:
 				.complain("motion_file", fmt::format("a trajectory or .brd file, and {} is no file", settings_.motionFile.string()));
 		auto world = std::make_shared<World>();
 		world->start = context.clock.now();
-		world->motion = makeMotion(settings_, toGlm(context.neckInHead));
+		world->motion = makeMotion(settings_, settings_.neck.value_or(toGlm(context.neckInHead)));
 		world_ = std::move(world);
 	}
 

@@ -26,6 +26,7 @@ void readMotion(TomlTable &table, Settings &settings)
 	if (table.has("rate") || isConstant) settings.rate = vectorOf(table.numbers("rate", 3)) * degree;
 	if (table.has("motion_file") || isFile) settings.motionFile = table.path("motion_file");
 	settings.motionDelay = table.number("motion_delay", 0, 3600, settings.motionDelay);
+	if (table.has("neck")) settings.neck = vectorOf(table.numbers("neck", 3));
 	settings.seed = uint64_t(table.integer("seed", 0, INT64_MAX, int64_t(settings.seed)));
 	if (table.has("truth")) settings.truth = table.path("truth");
 }

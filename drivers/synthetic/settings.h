@@ -4,6 +4,7 @@
 #include "drivers/synthetic/scene.h"
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace arift
 {
@@ -19,7 +20,8 @@ struct Settings {
 	MotionKind motion = MotionKind::natural;
 	glm::dvec3 rate{0}; ///< rad/s, head axes; for `constant`
 	std::filesystem::path motionFile;
-	double motionDelay = 0; ///< seconds at rest first
+	double motionDelay = 0;         ///< seconds at rest first
+	std::optional<glm::dvec3> neck; ///< metres, head axes: the pivot that the head turns about; empty: where the Rig says
 	uint64_t seed = 1;
 	std::filesystem::path truth; ///< CSV to write; empty: none
 

@@ -16,8 +16,9 @@ namespace
 
 constexpr double degree = M_PI / 180;
 constexpr double angularRadius = 0.021; // of the red disc, tangent: eight panel pixels
-constexpr double settled = 0.7;         // seconds: longer than the head rests at first and needs to reach its rate
+constexpr double speedsUp = 0.4;        // seconds that the head needs to reach its rate
 constexpr int limitSeconds = 240;       // real time, for one figure
+constexpr int changeLimitSeconds = 1200;
 
 /// In every direction all around, some above and below the horizon; each faced by a head that turns about the neck at its distance.
 std::vector<Eigen::Vector3d> markerPlaces(double distance)
@@ -36,14 +37,19 @@ std::string configuration(const Scenario &scenario)
 {
 	std::ostringstream text;
 	text << "[headset]\ndriver = \"synthetic\"\n[clock]\nmode = \"stepped\"\n[compositor]\ntarget = \"offscreen\"\n[synthetic]\n";
-	if (!scenario.motion.empty())
-		text << "motion = \"" << scenario.motion << "\"\n";
+	if (!scenario.recording.empty())
+		text << "motion = \"file\"\nmotion_file = '" << scenario.recording << "'\n";
 	else if (scenario.degreesPerSecond == 0)
 		text << "motion = \"rest\"\n";
 	else
 		text << "motion = \"constant\"\nrate = [0.0, " << scenario.degreesPerSecond << ", 0.0]\n";
-	text << "motion_delay = 0.3\ntracker_noise = false\ntracker_quantisation = false\ngyro_bias = [0.0, 0.0, 0.0]\ncamera_noise = false\n"
-		 << "transfer_delay_ms = " << scenario.delayMs << "\n";
+	if (scenario.sensorErrors)
+		text << "camera_jitter_ms = 1.0\n";
+	else
+		text << "tracker_noise = false\ntracker_quantisation = false\ngyro_bias = [0.0, 0.0, 0.0]\ncamera_noise = false\n";
+	const Eigen::Vector3d neck = reference::ConstantTurn{}.pivotInHead - Eigen::Vector3d(0, 0, scenario.neckErrorMetres);
+	text << "motion_delay = " << scenario.restSeconds << "\ntransfer_delay_ms = " << scenario.delayMs << "\nneck = [" << neck.x() << ", "
+		 << neck.y() << ", " << neck.z() << "]\n";
 	for (const Eigen::Vector3d &place : markerPlaces(scenario.distance))
 		text << "[[synthetic.markers]]\nposition = [" << place.x() << ", " << place.y() << ", " << place.z()
 			 << "]\nradius = " << scenario.distance * angularRadius << "\n";
@@ -74,13 +80,13 @@ double quantile(std::vector<double> &values, double q)
 	return *at;
 }
 
-Figures figuresOf(const std::vector<Pair> &pairs)
+/// `figures` with those of the errors' distances from `origin`.
+Figures figuresOf(const std::vector<Pair> &pairs, Figures figures, const Eigen::Vector2d &origin = Eigen::Vector2d::Zero())
 {
-	Figures figures;
 	std::vector<double> errors;
 	for (const Pair &pair : pairs) {
-		errors.push_back(pair.error.norm());
-		figures.mean += pair.error;
+		errors.push_back((pair.error - origin).norm());
+		figures.mean += pair.error - origin;
 	}
 	figures.samples = errors.size();
 	if (errors.empty()) return figures;
@@ -109,37 +115,64 @@ Measurement::Measurement(const Scenario &scenario)
 {
 }
 
-Figures Measurement::measure(const Setting &setting, size_t pictures)
+void Measurement::apply(const Setting &setting)
 {
 	service_.set(ipc::Setting::viewOffset, float(setting.viewOffset));
 	service_.set(ipc::Setting::passthroughDistance, float(setting.passthroughDistance));
-	const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(limitSeconds);
-	std::vector<Pair> pairs;
-	size_t looked = 0, lonely = 0, tries = 0;
-	XrTime first = 0, newest = 0;
-	while (looked < pictures) {
+}
+
+PanelPicture Measurement::nextPicture(XrTime from, std::chrono::steady_clock::time_point deadline)
+{
+	for (;;) {
 		if (!application_.running()) throw std::runtime_error("pinned_marker ended: " + application_.output());
-		if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("too few pictures with holograms in four minutes");
+		if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("too few pictures with holograms in the time given");
 		PanelPicture picture = service_.screenshot();
-		if (picture.displayTime == newest) continue;
-		newest = picture.displayTime;
-		// Until holograms are there, and a few frames after settings have changed, nothing counts; nor while the head speeds up.
-		const bool holograms = !findSpots(picture, lens_, 0, 2).empty() || !findSpots(picture, lens_, 1, 2).empty();
-		if (first == 0 && holograms) first = newest;
-		const double wait = last_.rgba.empty() ? settled : 0.1;
-		if (first == 0 || inSeconds(newest - first) < wait) {
-			if (++tries > 5000) throw std::runtime_error("no hologram is in any picture");
-			continue;
-		}
-		look(picture, setting, pairs, lonely);
-		last_ = std::move(picture);
-		++looked;
+		if (picture.displayTime == newest_) continue;
+		newest_ = picture.displayTime;
+		if (started_ == 0) started_ = newest_;
+		if (newest_ >= from) return picture;
+	}
+}
+
+bool Measurement::showsHolograms(const PanelPicture &picture) const
+{
+	return !findSpots(picture, lens_, 0, 2).empty() || !findSpots(picture, lens_, 1, 2).empty();
+}
+
+Figures Measurement::measure(const Setting &setting, size_t pictures)
+{
+	apply(setting);
+	const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(limitSeconds);
+	// Until holograms are there, and a few frames after settings have changed, nothing counts; nor while the head speeds up.
+	XrTime from = last_.rgba.empty() ? 0 : newest_ + fromSeconds(0.1);
+	while (from == 0)
+		if (showsHolograms(nextPicture(0, deadline))) from = newest_ + fromSeconds(scenario_.restSeconds + speedsUp);
+	std::vector<Pair> pairs;
+	Figures figures;
+	for (; figures.pictures < pictures; ++figures.pictures) {
+		last_ = nextPicture(from, deadline);
+		look(last_, setting, pairs, figures.lonely);
 	}
 	dropFaded(pairs);
-	Figures figures = figuresOf(pairs);
-	figures.pictures = looked;
-	figures.lonely = lonely;
-	return figures;
+	return figuresOf(pairs, figures);
+}
+
+Figures Measurement::measureChange(const Setting &setting, double seconds)
+{
+	apply(setting);
+	const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(changeLimitSeconds);
+	nextPicture(0, deadline);
+	const XrTime moves = started_ + fromSeconds(scenario_.restSeconds);
+	std::vector<Pair> before, after;
+	Figures figures;
+	last_ = nextPicture(moves - fromSeconds(0.5), deadline);
+	for (; newest_ < moves; last_ = nextPicture(0, deadline)) look(last_, setting, before, figures.lonely);
+	dropFaded(before);
+	if (before.empty()) throw std::runtime_error("no hologram was seen before the head moved");
+	for (; newest_ < moves + fromSeconds(seconds); last_ = nextPicture(0, deadline), ++figures.pictures)
+		look(last_, setting, after, figures.lonely);
+	dropFaded(after);
+	return figuresOf(after, figures, figuresOf(before, {}).mean);
 }
 
 void Measurement::look(const PanelPicture &picture, const Setting &setting, std::vector<Pair> &pairs, size_t &lonely) const

@@ -1,5 +1,6 @@
 // Prints how far holograms are from the real things they are pinned to, in panel pixels, and says whether that is near enough.
 // Without arguments: one quick measurement as a line of JSON. --table: every distance, rate and view offset. --quick: corners and middle.
+// --stability: how far holograms stray within ten seconds where sensors have their errors; printed, also with a wrong neck and a recording.
 #include "tests/e2e/registration/measurement.h"
 #include <algorithm>
 #include <array>
@@ -59,6 +60,27 @@ bool table(std::span<const double> distances, std::span<const double> rates, siz
 	return good;
 }
 
+/// How far holograms stray within ten seconds, with the sensors' errors; `bound` is for what the design promises, else printed only.
+bool stability(const char *name, Scenario scenario, bool bounded)
+{
+	scenario.sensorErrors = true;
+	scenario.restSeconds = 3; // long enough to learn the gyroscope's bias
+	Measurement measurement(scenario);
+	std::printf("stability, %s:\n", name);
+	const Setting setting;
+	const Bound bound = boundAt(scenario.degreesPerSecond);
+	return report(scenario, setting, measurement.measureChange(setting, 10), bounded ? &bound : nullptr);
+}
+bool stabilityTable(std::span<const double> rates, const std::string &recording)
+{
+	bool good = true;
+	for (const double rate : rates) good &= stability("sensors with their errors", {.degreesPerSecond = rate}, true);
+	for (const double rate : rates)
+		stability("the neck 20 mm longer than believed", {.degreesPerSecond = rate, .neckErrorMetres = 0.02}, false);
+	if (!recording.empty()) stability(recording.c_str(), {.recording = recording}, false);
+	return good;
+}
+
 void single()
 {
 	Measurement measurement({.distance = 2, .degreesPerSecond = 100});
@@ -68,13 +90,13 @@ void single()
 
 int run(std::span<char *> arguments)
 {
-	std::string mode, keep;
+	std::string mode, keep, recording;
 	std::vector<double> distances, rates;
 	for (size_t i = 1; i < arguments.size(); ++i) {
 		const std::string_view name = arguments[i];
-		const bool takesValue = name == "--distance" || name == "--rate" || name == "--keep";
+		const bool takesValue = name == "--distance" || name == "--rate" || name == "--keep" || name == "--recording";
 		if (takesValue && i + 1 == arguments.size()) throw std::invalid_argument(std::string(name) + " wants a value");
-		if (name == "--quick" || name == "--table" || name == "--json")
+		if (name == "--quick" || name == "--table" || name == "--stability" || name == "--json")
 			mode = name;
 		else if (name == "--distance")
 			distances.push_back(std::stod(arguments[++i]));
@@ -82,9 +104,16 @@ int run(std::span<char *> arguments)
 			rates.push_back(std::stod(arguments[++i]));
 		else if (name == "--keep")
 			keep = arguments[++i];
+		else if (name == "--recording")
+			recording = arguments[++i];
 		else
-			throw std::invalid_argument(
-				"usage: registration_probe [--json | --quick | --table] [--distance METRES]... [--rate DEG_PER_S]... [--keep PPM]");
+			throw std::invalid_argument("usage: registration_probe [--json | --quick | --table | --stability] [--distance METRES]... "
+										"[--rate DEG_PER_S]... [--keep PPM] "
+										"[--recording FILE]");
+	}
+	if (mode == "--stability") {
+		if (rates.empty()) rates = {0.0, 100.0, 200.0};
+		return stabilityTable(rates, recording) ? 0 : 1;
 	}
 	const bool chosen = !distances.empty() || !rates.empty();
 	if (mode == "--json" || (mode.empty() && !chosen)) {
