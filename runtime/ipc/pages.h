@@ -8,6 +8,7 @@
 #include <cstring>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 namespace arift::ipc
 {
@@ -31,24 +32,25 @@ public:
 		slot.sequence.store(2 * next, std::memory_order_release);
 		version_.store(next, std::memory_order_release);
 	}
-	/// Nothing only when the page holds what no writer leaves there, or when it was overtaken twice by the writer in every one of many
-	/// tries.
-	std::optional<T> read() const
+	/// False only when the page holds what no writer leaves there, or when it was overtaken twice by the writer in every one of many
+	/// tries; `value` is garbage then.
+	bool read(T &value) const
 	{
-		std::array<uint64_t, sizeof(T) / 8> words;
 		for (int attempt = 0; attempt < 64; ++attempt) {
 			const uint32_t newest = version_.load(std::memory_order_acquire);
 			const Slot &slot = slots_[newest % 2];
 			const uint32_t before = slot.sequence.load(std::memory_order_acquire);
-			for (size_t i = 0; i < words.size(); ++i) words[i] = slot.words[i].load(std::memory_order_relaxed);
+			copyWords(slot, value, std::make_index_sequence<sizeof(T) / 8>{});
 			std::atomic_thread_fence(std::memory_order_acquire);
-			if (before == 2 * newest && before == slot.sequence.load(std::memory_order_relaxed)) {
-				T value;
-				std::memcpy(static_cast<void *>(&value), words.data(), sizeof(T));
-				return value;
-			}
+			if (before == 2 * newest && before == slot.sequence.load(std::memory_order_relaxed)) return true;
 		}
-		return std::nullopt;
+		return false;
+	}
+	std::optional<T> read() const
+	{
+		std::optional<T> value{std::in_place};
+		if (!read(*value)) value.reset();
+		return value;
 	}
 	/// Changes with every write: a cheap way to see that there is news.
 	uint32_t version() const { return version_.load(std::memory_order_acquire); }
@@ -59,6 +61,15 @@ private:
 		uint32_t reserved = 0;
 		std::array<std::atomic<uint64_t>, sizeof(T) / 8> words{};
 	};
+	/// Without a loop: poses are asked for thousands of times a second.
+	template <size_t... i> static void copyWords(const Slot &slot, T &value, std::index_sequence<i...>)
+	{
+		const auto copyWord = [&](size_t n) {
+			const uint64_t word = slot.words[n].load(std::memory_order_relaxed);
+			std::memcpy(reinterpret_cast<std::byte *>(&value) + 8 * n, &word, 8);
+		};
+		(copyWord(i), ...);
+	}
 	std::atomic<uint32_t> version_{0};
 	uint32_t reserved_ = 0;
 	std::array<Slot, 2> slots_{};

@@ -20,11 +20,6 @@ struct NeckModel {
 	XrVector3f pivotInHead{0, -0.075f, 0.0805f};
 	/// The pose of the head when it has turned to `headInOrigin`; at identity the head is at the origin.
 	XrPosef head(const XrQuaternionf &headInOrigin) const { return {headInOrigin, pivotInHead - rotate(headInOrigin, pivotInHead)}; }
-	/// Velocity of the head's origin, in the origin frame, for an angular velocity in head axes.
-	XrVector3f headVelocity(const XrQuaternionf &headInOrigin, const XrVector3f &angularVelocity) const
-	{
-		return rotate(headInOrigin, cross(angularVelocity, pivotInHead * -1.0f));
-	}
 };
 
 /// How an answer for a time was found.

@@ -2,7 +2,7 @@
 #include "runtime/motion/prediction.h"
 #include <algorithm>
 #include <cstring>
-#include <optional>
+#include <utility>
 
 namespace arift
 {
@@ -16,19 +16,7 @@ uint32_t sequenceOf(uint64_t index) { return uint32_t(2 * (index / PoseRing::slo
 
 constexpr int tries = 4;           ///< for one slot that is being written
 constexpr uint64_t passedOver = 8; ///< slots that may be torn in a row
-constexpr int restarts = 3;        ///< of a whole search that the writer has overtaken
-
-template <typename Read> bool readSlot(const PoseRing &ring, uint64_t index, Read read)
-{
-	const PoseRing::Slot &slot = ring.slots[index % PoseRing::slotCount];
-	for (int attempt = 0; attempt < tries; ++attempt) {
-		const uint32_t before = slot.sequence.load(std::memory_order_acquire);
-		read(slot);
-		std::atomic_thread_fence(std::memory_order_acquire);
-		if (before == sequenceOf(index) && before == slot.sequence.load(std::memory_order_relaxed)) return true;
-	}
-	return false;
-}
+constexpr int restarts = 3;        ///< of what the writer has overtaken
 
 /// Whether the numbers can be a head's; who wrote them may be broken or hostile.
 bool isPlausible(const MotionSample &sample)
@@ -44,104 +32,122 @@ bool isPlausible(const MotionSample &sample)
 
 bool readSample(const PoseRing &ring, uint64_t index, MotionSample &sample)
 {
-	std::array<uint64_t, sizeof(MotionSample) / sizeof(uint64_t)> words;
-	const bool whole = readSlot(ring, index, [&](const PoseRing::Slot &slot) {
-		for (size_t i = 0; i < words.size(); ++i) words[i] = slot.words[i].load(std::memory_order_relaxed);
-	});
-	if (!whole) return false;
-	std::memcpy(static_cast<void *>(&sample), words.data(), sizeof sample);
-	return isPlausible(sample);
-}
-
-static_assert(offsetof(MotionSample, time) == 0, "readTime reads the first word alone");
-bool readTime(const PoseRing &ring, uint64_t index, XrTime &time)
-{
-	return readSlot(ring, index, [&](const PoseRing::Slot &slot) { time = XrTime(slot.words[0].load(std::memory_order_relaxed)); });
-}
-
-/// The newest readable sample among those before `end`, a torn one being passed over for the one before.
-bool readNewest(const PoseRing &ring, uint64_t end, MotionSample &sample)
-{
-	for (uint64_t back = 1; back <= std::min(end, passedOver); ++back) {
-		if (readSample(ring, end - back, sample)) return true;
+	static_assert(std::is_trivially_copyable_v<MotionSample>);
+	constexpr size_t words = sizeof(MotionSample) / sizeof(uint64_t);
+	const PoseRing::Slot &slot = ring.slots[index % PoseRing::slotCount];
+	for (int attempt = 0; attempt < tries; ++attempt) {
+		if (slot.sequence.load(std::memory_order_acquire) != sequenceOf(index)) continue;
+		for (size_t i = 0; i < words; ++i) {
+			const uint64_t word = slot.words[i].load(std::memory_order_relaxed);
+			std::memcpy(reinterpret_cast<std::byte *>(&sample) + i * sizeof word, &word, sizeof word);
+		}
+		std::atomic_thread_fence(std::memory_order_acquire);
+		if (slot.sequence.load(std::memory_order_relaxed) == sequenceOf(index)) return isPlausible(sample);
 	}
 	return false;
 }
 
-/// Two neighbouring samples: time[lower] <= time < time[upper].
-struct Bracket {
-	uint64_t lower, upper;
-};
-
-/// What is known at `index`: an index at or before it (after `lowest`) that can be read, and its time.
+/// A sample that can be read, and where it lies.
 struct Probe {
 	uint64_t index;
-	XrTime time;
+	MotionSample sample;
 };
-std::optional<Probe> probe(const PoseRing &ring, uint64_t index, uint64_t lowest)
+
+/// Reads the sample at `index`, or the nearest before it that can be read, among `count` of them and not too many.
+bool probe(const PoseRing &ring, uint64_t index, uint64_t count, Probe &found)
 {
-	for (uint64_t back = 0; back < passedOver && index - lowest > back; ++back) {
-		XrTime time = 0;
-		if (readTime(ring, index - back, time)) return Probe{index - back, time};
+	for (uint64_t back = 0; back < std::min(count, passedOver); ++back) {
+		found.index = index - back;
+		if (readSample(ring, found.index, found.sample)) return true;
 	}
-	return std::nullopt;
+	return false;
 }
 
-/// Searches between `oldest`, the first index that may be asked for, and `high`, which is later than `time`: a few guesses by proportion,
-/// which find evenly spaced samples at once, then by halves.
-std::optional<Bracket> findBracket(const PoseRing &ring, uint64_t oldest, Probe high, XrTime time)
+/// Whole intervals in a duration; at most the ring's length.
+uint64_t intervals(XrDuration duration, double interval)
 {
-	constexpr int guesses = 4;
-	std::optional<Probe> low; // known to be at or before `time`
-	if (XrTime first = 0; readTime(ring, oldest, first)) {
-		if (first > time) return std::nullopt;
-		low = {oldest, first};
-	}
-	uint64_t floor = oldest; // nothing between `low` and this can be read
-	for (int step = 0; high.index - floor > 1; ++step) {
-		const uint64_t span = high.index - floor;
-		const double since = low ? double(time) - double(low->time) : 0, all = low ? double(high.time) - double(low->time) : 0;
-		const uint64_t guess = step < guesses && all > 0 ? uint64_t(since / all * double(span)) : span / 2;
-		const uint64_t middle = floor + std::clamp<uint64_t>(guess, 1, span - 1);
-		const std::optional<Probe> at = probe(ring, middle, floor);
-		if (!at)
-			floor = middle; // torn, or overwritten meanwhile
-		else if (at->time > time)
-			high = *at;
-		else
-			low = at, floor = at->index;
-	}
-	if (!low) return std::nullopt;
-	return Bracket{low->index, high.index};
+	return uint64_t(std::clamp(double(duration) / std::max(interval, 1.0), 0.0, double(PoseRing::slotCount)));
 }
+
+/// Looks for the two samples around a time: low().time <= time < high().time, with none between them that can be read.
+class Search
+{
+public:
+	/// `newest` is later than `time`; `oldest` is the first index that may be asked for.
+	Search(const PoseRing &ring, uint64_t oldest, const Probe &newest, XrTime time)
+		: ring_(ring), oldest_(oldest), time_(time), floor_(oldest), probes_{newest}
+	{
+		strideBack();
+		narrow();
+	}
+	bool hasFound() const { return hasLow_; }
+	const MotionSample &low() const { return low_->sample; }
+	const MotionSample &high() const { return high_->sample; }
+
+private:
+	/// Moves low_ or high_ to what can be read at `index` or before it, among `count` samples; says whether anything can.
+	bool look(uint64_t index, uint64_t count)
+	{
+		if (!probe(ring_, index, count, *spare_)) return false;
+		const bool isLow = spare_->sample.time <= time_;
+		std::swap(spare_, isLow ? low_ : high_); // nothing is copied
+		if (isLow) floor_ = low_->index;
+		hasLow_ = hasLow_ || isLow;
+		return true;
+	}
+
+	/// Looks for a sample at or before the time, back in growing strides.
+	void strideBack()
+	{
+		const uint64_t newest = high_->index;
+		const XrTime newestTime = high_->sample.time;
+		double interval = millisecond;
+		for (uint64_t stride = 1; !hasLow_ && high_->index > oldest_; stride *= 2) {
+			stride = std::max(stride, intervals(high_->sample.time - time_, interval) + 1);
+			const uint64_t index = high_->index - std::min(stride, high_->index - oldest_);
+			if (!look(index, index - oldest_ + 1) && index == oldest_) return;
+			// Where samples have come as evenly as so far, the next stride reaches it.
+			if (high_->index < newest) interval = double(newestTime - high_->sample.time) / double(newest - high_->index);
+		}
+	}
+
+	/// A few guesses by proportion, which find evenly spaced samples at once, then by halves.
+	void narrow()
+	{
+		constexpr int guesses = 4;
+		for (int step = 0; high_->index - floor_ > 1; ++step) {
+			const uint64_t span = high_->index - floor_;
+			const double part = hasLow_ ? double(time_ - low_->sample.time) / double(high_->sample.time - low_->sample.time) : 0.5;
+			const uint64_t guess = step < guesses ? uint64_t(part * double(span)) : span / 2;
+			const uint64_t middle = floor_ + std::clamp<uint64_t>(guess, 1, span - 1);
+			if (!look(middle, middle - floor_)) floor_ = middle; // torn, or overwritten meanwhile
+		}
+	}
+
+	const PoseRing &ring_;
+	const uint64_t oldest_;
+	const XrTime time_;
+	uint64_t floor_; ///< between low_ and this nothing can be read
+	std::array<Probe, 3> probes_;
+	bool hasLow_ = false;
+	Probe *high_ = &probes_[0], *low_ = &probes_[1], *spare_ = &probes_[2];
+};
 
 /// Spherical; between neighbours less than 1.6 degrees apart the chord is the arc within 1e-7 rad, at a quarter of the cost.
-glm::dquat between(const glm::dquat &a, const glm::dquat &b, double part)
+XrQuaternionf between(const XrQuaternionf &a, const XrQuaternionf &b, float part)
 {
-	const double cosine = glm::dot(a, b);
-	if (std::abs(cosine) < 0.9999) return glm::slerp(a, b, part);
-	return a * (1 - part) + b * (cosine < 0 ? -part : part);
+	const float cosine = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+	if (std::abs(cosine) < 0.9999f) return toXr(glm::slerp(toGlm(a), toGlm(b), double(part)));
+	const float ofA = 1 - part, ofB = cosine < 0 ? -part : part;
+	return normalized({a.x * ofA + b.x * ofB, a.y * ofA + b.y * ofB, a.z * ofA + b.z * ofB, a.w * ofA + b.w * ofB});
 }
 
 MotionSample interpolate(const MotionSample &a, const MotionSample &b, XrTime time)
 {
-	const double part = double(time - a.time) / double(b.time - a.time);
-	const auto mix = [part](const XrVector3f &from, const XrVector3f &to) { return from * float(1 - part) + to * float(part); };
-	const glm::dquat orientation = between(toGlm(a.headInOrigin), toGlm(b.headInOrigin), part);
-	return {time, toXr(glm::normalize(orientation)), mix(a.angularVelocity, b.angularVelocity),
+	const float part = float(time - a.time) / float(b.time - a.time);
+	const auto mix = [part](const XrVector3f &from, const XrVector3f &to) { return from * (1 - part) + to * part; };
+	return {time, between(a.headInOrigin, b.headInOrigin, part), mix(a.angularVelocity, b.angularVelocity),
 			mix(a.angularAcceleration, b.angularAcceleration)};
-}
-
-HeadMotion afterNewest(const MotionSample &newest, XrTime time)
-{
-	if (time == newest.time) return {Found::exact, newest};
-	HeadMotion motion{Found::predicted, predict(newest, std::min(time - newest.time, longestPrediction))};
-	if (time - newest.time > longestPrediction) {
-		motion.found = Found::frozen;
-		motion.at.angularVelocity = motion.at.angularAcceleration = {0, 0, 0};
-	}
-	motion.at.time = time;
-	return motion;
 }
 
 } // namespace
@@ -161,34 +167,39 @@ void PoseWriter::push(const MotionSample &sample)
 	ring_.written.store(index + 1, std::memory_order_release);
 }
 
-bool PoseHistory::newest(MotionSample &sample) const
+PoseMoment::PoseMoment(const PoseRing &ring) : ring_(&ring)
 {
-	for (int attempt = 0; attempt < restarts; ++attempt) {
-		if (readNewest(*ring_, ring_->written.load(std::memory_order_acquire), sample)) return true;
+	for (int attempt = 0; attempt < restarts && isEmpty_; ++attempt) {
+		const uint64_t end = ring.written.load(std::memory_order_acquire);
+		for (uint64_t back = 1; back <= std::min(end, passedOver) && isEmpty_; ++back) {
+			index_ = end - back;
+			isEmpty_ = !readSample(ring, index_, newest_);
+		}
 	}
-	return false;
 }
 
-HeadMotion PoseHistory::at(XrTime time) const
+HeadMotion PoseMoment::before(XrTime time) const
 {
-	if (time <= 0) return {Found::none, {.time = time}};
-	for (int attempt = 0; attempt < restarts; ++attempt) {
-		const uint64_t end = ring_->written.load(std::memory_order_acquire);
-		const std::optional<Probe> newest = end > 0 ? probe(*ring_, end - 1, end - 1 - std::min(end - 1, passedOver)) : std::nullopt;
-		MotionSample before, after;
-		if (!newest || newest->time <= time) {
-			if (readNewest(*ring_, end, before) && before.time <= time) return afterNewest(before, time);
-			continue;
-		}
-		// The oldest slot is the next to be overwritten and not worth asking for.
-		const uint64_t oldest = end < PoseRing::slotCount ? 0 : end - PoseRing::slotCount + 1;
-		const std::optional<Bracket> bracket = findBracket(*ring_, oldest, *newest, time);
-		if (!bracket) break;
-		if (!readSample(*ring_, bracket->lower, before) || !readSample(*ring_, bracket->upper, after)) continue;
-		if (before.time == time) return {Found::exact, before};
-		if (before.time < time && time < after.time) return {Found::interpolated, interpolate(before, after, time)};
+	const HeadMotion none{Found::none, {.time = time}};
+	if (isEmpty_ || time <= 0) return none;
+	// The oldest slot is the next to be overwritten and not worth asking for.
+	const uint64_t oldest = index_ + 1 < PoseRing::slotCount ? 0 : index_ + 2 - PoseRing::slotCount;
+	const Search found(*ring_, oldest, {index_, newest_}, time);
+	if (!found.hasFound()) return none;
+	if (found.low().time == time) return {Found::exact, found.low()};
+	return {Found::interpolated, interpolate(found.low(), found.high(), time)};
+}
+
+HeadMotion PoseMoment::afterNewest(const MotionSample &newest, XrTime time)
+{
+	if (time == newest.time) return {Found::exact, newest};
+	HeadMotion motion{Found::predicted, predict(newest, std::min(time - newest.time, longestPrediction))};
+	if (time - newest.time > longestPrediction) {
+		motion.found = Found::frozen;
+		motion.at.angularVelocity = motion.at.angularAcceleration = {0, 0, 0};
 	}
-	return {Found::none, {.time = time}};
+	motion.at.time = time;
+	return motion;
 }
 
 } // namespace arift

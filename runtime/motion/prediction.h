@@ -16,15 +16,17 @@ constexpr double accelerationFading = 0.1; ///< seconds
 /// w(t) = w + a T (1 - e^(-t/T)), and the rotation is its second-order Magnus expansion.
 inline MotionSample predict(const MotionSample &sample, XrDuration ahead)
 {
-	const double t = inSeconds(std::clamp<XrDuration>(ahead, 0, longestPrediction)), fading = accelerationFading;
-	const double left = std::exp(-t / fading);
-	const glm::dvec3 rate = toGlm(sample.angularVelocity), acceleration = toGlm(sample.angularAcceleration);
-	const glm::dvec3 turn = rate * t + acceleration * (fading * (t - fading * (1 - left)));
-	const glm::dvec3 coning = glm::cross(rate, acceleration) * (t * t * t / 12 * std::sqrt(left)); // within 1e-5 rad
-	return {.time = sample.time + XrDuration(std::clamp<XrDuration>(ahead, 0, longestPrediction)),
-			.headInOrigin = toXr(glm::normalize(toGlm(sample.headInOrigin) * rotationOf(turn + coning))),
-			.angularVelocity = toXr(rate + acceleration * (fading * (1 - left))),
-			.angularAcceleration = toXr(acceleration * left)};
+	const XrDuration clamped = std::clamp<XrDuration>(ahead, 0, longestPrediction);
+	const float t = float(inSeconds(clamped)), fading = float(accelerationFading);
+	const float half = std::exp(-t / (2 * fading)), left = half * half; // of the acceleration: half-way, and at the end
+	const XrVector3f &rate = sample.angularVelocity, &acceleration = sample.angularAcceleration;
+	const float gained = fading * (1 - left); // rate for each unit of acceleration
+	const XrVector3f turn = rate * t + acceleration * (fading * (t - gained));
+	const XrVector3f coning = cross(rate, acceleration) * (t * t * t / 12 * half); // within 1e-5 rad
+	return {.time = sample.time + clamped,
+			.headInOrigin = normalized(sample.headInOrigin * toXr(rotationOf(toGlm(turn + coning)))),
+			.angularVelocity = rate + acceleration * gained,
+			.angularAcceleration = acceleration * left};
 }
 
 } // namespace arift

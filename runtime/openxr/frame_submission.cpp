@@ -102,9 +102,9 @@ std::optional<XrPosef> FrameSubmission::place(ipc::Layer &layer, XrSpace handle,
 	const XrPosef pose = requirePose(given, what);
 	layer.frame = space.isHeadLocked() ? ipc::LayerFrame::head : ipc::LayerFrame::origin;
 	if (space.isHeadLocked()) return unlessTooFar(space.offset * pose);
-	const auto inOrigin = locator_.inOrigin(space);
+	const auto inOrigin = locator_.inOrigin<XrPosef>(space);
 	if (!inOrigin) return std::nullopt;
-	return unlessTooFar(inOrigin->pose * pose);
+	return unlessTooFar(*inOrigin * pose);
 }
 
 void FrameSubmission::addProjection(const XrCompositionLayerProjection &projection)

@@ -31,16 +31,13 @@ uint64_t HandleTable::put(Object *object, XrObjectType type, const Object *paren
 	return object->handle_;
 }
 
-Object &HandleTable::find(uint64_t handle, XrObjectType type) const
+void HandleTable::refuse(uint64_t handle, XrObjectType wanted) const
 {
-	const uint32_t index = indexOf(handle);
 	if (handle == 0) throw Error(XR_ERROR_HANDLE_INVALID, "the handle is XR_NULL_HANDLE");
+	const uint32_t index = indexOf(handle);
 	if (index >= slotCount || slots_[index].handle.load(std::memory_order_acquire) != handle)
 		throw Error(XR_ERROR_HANDLE_INVALID, "{:#x} is no handle, or was destroyed", handle);
-	const Slot &slot = slots_[index];
-	if (slot.type != type)
-		throw Error(XR_ERROR_HANDLE_INVALID, "{:#x} is a handle of XrObjectType {}, not {}", handle, int(slot.type), int(type));
-	return *slot.object;
+	throw Error(XR_ERROR_HANDLE_INVALID, "{:#x} is a handle of XrObjectType {}, not {}", handle, int(slots_[index].type), int(wanted));
 }
 
 Object *HandleTable::findRoot(uint64_t handle, XrObjectType type) const

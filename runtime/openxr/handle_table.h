@@ -55,7 +55,11 @@ public:
 
 	template <HandleObject T> T &at(typename HandleOf<std::remove_const_t<T>>::type handle) const
 	{
-		return static_cast<T &>(find(reinterpret_cast<uint64_t>(handle), HandleOf<std::remove_const_t<T>>::objectType));
+		constexpr XrObjectType type = HandleOf<std::remove_const_t<T>>::objectType;
+		const auto value = reinterpret_cast<uint64_t>(handle);
+		const Slot &slot = slots_[uint32_t(value) % slotCount];
+		if (slot.handle.load(std::memory_order_acquire) != value || value == 0 || slot.type != type) refuse(value, type);
+		return static_cast<T &>(*slot.object);
 	}
 
 	/// What `handle` and all its ancestors lie below; null for what is no handle now, and where it is no T.
@@ -79,7 +83,8 @@ private:
 	};
 
 	uint64_t put(Object *object, XrObjectType type, const Object *parent);
-	Object &find(uint64_t handle, XrObjectType type) const;
+	/// Throws XR_ERROR_HANDLE_INVALID with the reason.
+	[[noreturn]] void refuse(uint64_t handle, XrObjectType wanted) const;
 	Object *findRoot(uint64_t handle, XrObjectType type) const;
 	std::vector<Object *> takeOut(const Object &object);
 

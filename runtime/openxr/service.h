@@ -64,7 +64,7 @@ private:
 	Service(const ipc::Hello &hello, ipc::Socket socket);
 	template <typename T> T read(const ipc::Published<T> &published) const
 	{
-		if (const auto value = published.read()) return *value;
+		if (T value; published.read(value)) return value;
 		lose("its shared page is torn");
 		throw Error(XR_ERROR_INSTANCE_LOST, "the service's shared page is torn");
 	}

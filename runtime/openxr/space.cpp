@@ -52,11 +52,44 @@ Space &requireSpace(const Session &session, XrSpace handle, const char *what)
 	return space;
 }
 
-void writeVelocity(const Located &located, XrSpaceVelocityFlags &flags, XrVector3f &linear, XrVector3f &angular)
+/// Where the reference space of `kind` is, as XrPosef or FrameMotion.
+template <typename Frame> Frame referenceInOrigin(Space::Kind kind, const ipc::ViewTable &views, const HeadMotion &head)
 {
-	flags = located.velocityFlags;
-	linear = located.motion.linearVelocity;
-	angular = located.motion.angularVelocity;
+	switch (kind) {
+	case Space::Kind::local: return {localInOrigin(views)};
+	case Space::Kind::localFloor: return {localFloorInOrigin(views)};
+	case Space::Kind::stage: return {stageInOrigin(views)};
+	default:
+		if constexpr (std::is_same_v<Frame, XrPosef>)
+			return headInOrigin(views, head);
+		else
+			return viewSpaceInOrigin(views, head);
+	}
+}
+
+/// One answer of xrLocateSpace; flags are 0 where there is none.
+template <typename Frame> struct Located {
+	XrSpaceLocationFlags flags = 0;
+	Frame frame{};
+};
+
+template <typename Frame> Located<Frame> locate(const Locator &locator, const Space &space, const Space &base)
+{
+	// Both hang on the same frame: exactly where they are in each other, whether or not anything is tracked.
+	if (space.kind == base.kind && space.kind != Space::Kind::action) return {tracked, relativeTo(Frame{base.offset}, Frame{space.offset})};
+	const auto baseInOrigin = locator.inOrigin<Frame>(base);
+	const auto spaceInOrigin = locator.inOrigin<Frame>(space);
+	if (!baseInOrigin || !spaceInOrigin) return {};
+	const bool onHead = space.isHeadLocked() || base.isHeadLocked();
+	return {onHead ? flagsOf(locator.head()) : tracked, relativeTo(*baseInOrigin, *spaceInOrigin)};
+}
+
+/// Writes XrSpaceVelocity or XrSpaceVelocityData.
+void writeVelocity(const Located<FrameMotion> &located, auto &velocity)
+{
+	velocity.velocityFlags = located.flags ? moving : 0;
+	velocity.linearVelocity = located.frame.linearVelocity;
+	velocity.angularVelocity = located.frame.angularVelocity;
 }
 
 } // namespace
@@ -76,36 +109,23 @@ XrPosef requirePose(const XrPosef &pose, const char *what)
 }
 
 Locator::Locator(const Session &session, XrTime time)
-	: views_(session.instance.service.views()), head_(session.instance.service.poses().at(time))
+	: views_(session.instance.service.views()), poses_(session.instance.service.poses().now()), head_(poses_.at(time))
 {
 }
 
-std::optional<FrameMotion> Locator::inOrigin(const Space &space) const
+template <typename Frame> std::optional<Frame> Locator::inOrigin(const Space &space) const
 {
-	switch (space.kind) {
-	case Space::Kind::view:
-		if (head_.found == Found::none) return std::nullopt;
-		return carried(viewSpaceInOrigin(views_, head_), space.offset);
-	case Space::Kind::local: return carried({.pose = localInOrigin(views_)}, space.offset);
-	case Space::Kind::localFloor: return carried({.pose = localFloorInOrigin(views_)}, space.offset);
-	case Space::Kind::stage: return carried({.pose = stageInOrigin(views_)}, space.offset);
-	case Space::Kind::action: break;
-	}
-	return std::nullopt;
+	if (space.kind == Space::Kind::action || (space.isHeadLocked() && head_.found == Found::none)) return std::nullopt;
+	const auto reference = referenceInOrigin<Frame>(space.kind, views_, head_);
+	return space.isOffset ? carried(reference, space.offset) : reference;
 }
 
-Located locate(const Locator &locator, const Space &space, const Space &base)
+template std::optional<XrPosef> Locator::inOrigin(const Space &space) const;
+
+std::optional<XrPosef> Locator::headAt(XrTime time) const
 {
-	if (space.kind == base.kind && space.kind != Space::Kind::action) {
-		// Both hang on the same frame: exactly where they are in each other, whether or not anything is tracked.
-		const FrameMotion still = relativeTo({.pose = base.offset}, {.pose = space.offset});
-		return {tracked, moving, still};
-	}
-	const auto baseInOrigin = locator.inOrigin(base);
-	const auto spaceInOrigin = locator.inOrigin(space);
-	if (!baseInOrigin || !spaceInOrigin) return {};
-	const bool onHead = space.isHeadLocked() || base.isHeadLocked();
-	return {onHead ? flagsOf(locator.head()) : tracked, moving, relativeTo(*baseInOrigin, *spaceInOrigin)};
+	const HeadMotion then = poses_.at(time);
+	return then.found == Found::none ? std::nullopt : std::optional(headInOrigin(views_, then));
 }
 
 XrResult enumerateReferenceSpaces(Session &session, OutputArray<XrReferenceSpaceType> types)
@@ -142,15 +162,21 @@ void createActionSpace(Session &session, const XrActionSpaceCreateInfo &info, Xr
 	space = handles.insert(std::make_unique<Space>(session, Space::Kind::action, pose), &session);
 }
 
-void locateSpace(Space &space, Space &base, XrTime time, XrSpaceLocation &location)
+void locateSpace(Space &space, EvenIfLost<Space> base, XrTime time, XrSpaceLocation &location)
 {
 	requireTime(time);
-	requireSameSession(space.session, base, "baseSpace");
-	const Located located = locate(Locator(space.session, time), space, base);
-	location.locationFlags = located.locationFlags;
-	location.pose = located.motion.pose;
-	if (auto *velocity = findInChain<XrSpaceVelocity>(location.next))
-		writeVelocity(located, velocity->velocityFlags, velocity->linearVelocity, velocity->angularVelocity);
+	requireSameSession(space.session, *base, "baseSpace");
+	const Locator locator(space.session, time);
+	if (auto *velocity = findInChain<XrSpaceVelocity>(location.next)) {
+		const auto located = locate<FrameMotion>(locator, space, *base);
+		location.locationFlags = located.flags;
+		location.pose = located.frame.pose;
+		writeVelocity(located, *velocity);
+	} else {
+		const auto located = locate<XrPosef>(locator, space, *base);
+		location.locationFlags = located.flags;
+		location.pose = located.frame;
+	}
 }
 
 void locateSpaces(Session &session, const XrSpacesLocateInfo &info, XrSpaceLocations &locations)
@@ -166,11 +192,9 @@ void locateSpaces(Session &session, const XrSpacesLocateInfo &info, XrSpaceLocat
 	for (uint32_t i = 0; i < info.spaceCount; ++i) requireSpace(session, info.spaces[i], "a space to locate");
 	const Locator locator(session, info.time);
 	for (uint32_t i = 0; i < info.spaceCount; ++i) {
-		const Located located = locate(locator, handles.at<Space>(info.spaces[i]), base);
-		locations.locations[i] = {located.locationFlags, located.motion.pose};
-		if (!velocities) continue;
-		XrSpaceVelocityData &velocity = velocities->velocities[i];
-		writeVelocity(located, velocity.velocityFlags, velocity.linearVelocity, velocity.angularVelocity);
+		const auto located = locate<FrameMotion>(locator, handles.at<Space>(info.spaces[i]), base);
+		locations.locations[i] = {located.flags, located.frame.pose};
+		if (velocities) writeVelocity(located, velocities->velocities[i]);
 	}
 }
 
@@ -183,14 +207,12 @@ XrResult locateViews(Session &session, const XrViewLocateInfo &info, XrViewState
 	const Space &space = requireSpace(session, info.space, "space");
 	state.viewStateFlags = 0;
 	if (views.capacity == 0) return views.fill(2, [](uint32_t, XrView &) {});
-	const Service &service = session.instance.service;
 	const Locator locator(session, info.displayTime);
-	const auto base = locator.inOrigin(space);
 	const ipc::ViewTable &table = locator.views();
+	const auto base = locator.inOrigin<XrPosef>(space);
 	const bool located = base && locator.head().found != Found::none;
-	const XrPosef toSpace = located ? inverse(base->pose) : identityPose;
-	const ipc::TimingTable timing = service.timing();
-	const XrPosef head = headInOrigin(table, locator.head());
+	const XrPosef head = located ? relativeTo(*base, headInOrigin(table, locator.head())) : identityPose;
+	const ipc::TimingTable timing = session.instance.service.timing();
 	// At the exposure of the camera image that will be shown; both cameras' often is the same.
 	XrTime thenTime = info.displayTime;
 	XrPosef then = head;
@@ -200,11 +222,11 @@ XrResult locateViews(Session &session, const XrViewLocateInfo &info, XrViewState
 		if (!located) return;
 		const XrTime exposure = exposureShownAt(timing.cameras[eye], info.displayTime, timing.latchBeforeDisplay);
 		if (table.viewOffset > 0 && exposure != thenTime) {
-			const HeadMotion atExposure = service.poses().at(exposure);
-			then = atExposure.found == Found::none ? head : headInOrigin(table, atExposure);
+			const auto headThen = locator.headAt(exposure);
+			then = headThen ? relativeTo(*base, *headThen) : head;
 			thenTime = exposure;
 		}
-		view.pose = toSpace * viewInOrigin(table, eye, head, then);
+		view.pose = viewInOrigin(table, eye, head, then);
 	});
 	static_assert(XR_VIEW_STATE_ORIENTATION_VALID_BIT == oriented);
 	// Bit for bit the same as XrSpaceLocationFlags.

@@ -13,7 +13,10 @@ public:
 	/// A reference space, or an action space: nothing is bound to any action yet, so those have no place.
 	enum class Kind { view, local, localFloor, stage, action };
 
-	Space(Session &owner, Kind what, const XrPosef &poseInBase) : session(owner), kind(what), offset(poseInBase) {}
+	Space(Session &owner, Kind what, const XrPosef &poseInBase)
+		: session(owner), kind(what), offset(poseInBase), isOffset(std::memcmp(&offset, &identityPose, sizeof offset) != 0)
+	{
+	}
 	void requireAlive() const override { session.requireAlive(); }
 
 	/// Moves with the head, wherever the head may be.
@@ -22,6 +25,7 @@ public:
 	Session &session;
 	const Kind kind;
 	const XrPosef offset; ///< this space in the reference space or action it is derived from
+	const bool isOffset;  ///< most are not
 };
 
 template <> struct HandleOf<Space> {
@@ -34,23 +38,19 @@ class Locator
 {
 public:
 	Locator(const Session &session, XrTime time);
-	/// Where a space is in the origin frame and how it moves; nothing for a space that has no place at this time.
-	std::optional<FrameMotion> inOrigin(const Space &space) const;
+	/// Where a space is in the origin frame: an XrPosef or, with how it moves, a FrameMotion. Nothing for a space that has no place at this
+	/// time.
+	template <typename Frame> std::optional<Frame> inOrigin(const Space &space) const;
 	const ipc::ViewTable &views() const { return views_; }
 	const HeadMotion &head() const { return head_; }
+	/// Of the head at another time, by the same samples; nothing where nothing is known of that time.
+	std::optional<XrPosef> headAt(XrTime time) const;
 
 private:
 	ipc::ViewTable views_;
+	PoseMoment poses_;
 	HeadMotion head_;
 };
-
-/// One answer of xrLocateSpace; flags are 0 where there is none.
-struct Located {
-	XrSpaceLocationFlags locationFlags = 0;
-	XrSpaceVelocityFlags velocityFlags = 0;
-	FrameMotion motion;
-};
-Located locate(const Locator &locator, const Space &space, const Space &base);
 
 /// Throws XR_ERROR_TIME_INVALID.
 void requireTime(XrTime time);
@@ -61,7 +61,7 @@ XrResult enumerateReferenceSpaces(Session &session, OutputArray<XrReferenceSpace
 void createReferenceSpace(Session &session, const XrReferenceSpaceCreateInfo &info, XrSpace &space);
 XrResult getReferenceSpaceBoundsRect(Session &session, XrReferenceSpaceType type, XrExtent2Df &bounds);
 void createActionSpace(Session &session, const XrActionSpaceCreateInfo &info, XrSpace &space);
-void locateSpace(Space &space, Space &base, XrTime time, XrSpaceLocation &location);
+void locateSpace(Space &space, EvenIfLost<Space> base, XrTime time, XrSpaceLocation &location);
 void locateSpaces(Session &session, const XrSpacesLocateInfo &info, XrSpaceLocations &locations);
 void destroySpace(EvenIfLost<Space> space);
 XrResult locateViews(Session &session, const XrViewLocateInfo &info, XrViewState &state, OutputArray<XrView> views);
