@@ -50,8 +50,15 @@ void Compositor::removeSource(const FrameSource &source)
 
 void Compositor::setPassthroughDistance(double metres)
 {
-	loop_->inbox.update([&](Loop::Inbox &box) { box.passthroughDistance = metres; });
+	loop_->inbox.update([&](Loop::Inbox &box) { box.settings.passthroughDistance = metres; });
 }
+
+void Compositor::setRawPassthrough(bool raw)
+{
+	loop_->inbox.update([&](Loop::Inbox &box) { box.settings.rawPassthrough = raw; });
+}
+
+bool Compositor::rawPassthrough() { return loop_->inbox.lock()->settings.rawPassthrough; }
 
 std::optional<Picture> Compositor::picture(ipc::PictureKind kind, XrDuration limit)
 {
@@ -68,14 +75,19 @@ std::optional<Picture> Compositor::picture(ipc::PictureKind kind, XrDuration lim
 
 FrameFigures Compositor::figures(bool reset)
 {
-	const auto report = loop_->report.lock();
+	// A copy is sorted: the compositor's thread, which writes the record, waits for no more than the copying.
+	FrameRecord record;
 	const double used = processSeconds();
-	FrameFigures figures = report->record.figures();
-	figures.cpuSeconds = used - report->cpuAtReset;
-	if (reset) {
-		report->record.reset();
-		report->cpuAtReset = used;
-	}
+	double before = 0;
+	loop_->report.update([&](Loop::Report &report) {
+		record = report.record;
+		before = report.cpuAtReset;
+		if (!reset) return;
+		report.record.reset();
+		report.cpuAtReset = used;
+	});
+	FrameFigures figures = record.figures();
+	figures.cpuSeconds = used - before;
 	return figures;
 }
 

@@ -7,12 +7,15 @@
 #include "runtime/compositor/frame_source.h"
 #include "runtime/compositor/panel.h"
 #include "runtime/ipc/messages.h"
+#include <functional>
 #include <memory>
 #include <string>
 #include <thread>
 
 namespace arift
 {
+
+class Trace;
 
 /// Everything the compositor works with; all of it must outlive it.
 struct Surroundings {
@@ -21,6 +24,8 @@ struct Surroundings {
 	PoseHistory poses;
 	ipc::SystemPage &page; ///< reads views; writes timing, and the clock where it is stepped
 	std::array<CameraFeed *, 2> cameras{};
+	Trace *trace = nullptr;             ///< null: none is wanted
+	std::function<void()> threadBegins; ///< called first by the compositor's thread
 };
 
 struct Picture {
@@ -45,6 +50,9 @@ public:
 	void removeSource(const FrameSource &source);
 
 	void setPassthroughDistance(double metres);
+	/// The cameras alone, whatever applications want shown.
+	void setRawPassthrough(bool raw);
+	bool rawPassthrough();
 	/// The next panel image or both eyes of it. Nothing when it is not there within `limit` of real time.
 	std::optional<Picture> picture(ipc::PictureKind kind, XrDuration limit);
 	/// Since the last reset.

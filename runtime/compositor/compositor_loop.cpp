@@ -22,7 +22,7 @@ double processSeconds()
 }
 
 Compositor::Loop::Loop(const Surroundings &surroundings, const Pacer &pacer, std::unique_ptr<Panel> panel)
-	: surroundings_(surroundings), pacer_(pacer), panel_(std::move(panel)), stepped_(surroundings.clock.anchor().rate == 0)
+	: surroundings_(surroundings), pacer_(pacer), panel_(std::move(panel)), rate_(surroundings.clock.anchor().rate)
 {
 	report.lock()->cpuAtReset = processSeconds();
 }
@@ -44,15 +44,24 @@ void Compositor::Loop::changeImages(std::vector<ImageChange> changes)
 	}
 }
 
-Latched Compositor::Loop::latch(const Sources &sources, Contents &contents)
+std::vector<Compositor::Loop::ImageChange> Compositor::Loop::take(Frame &frame)
 {
-	Latched latched;
-	for (size_t eye = 0; eye < 2; ++eye)
-		if (surroundings_.cameras[eye]) latched.cameras[eye] = surroundings_.cameras[eye]->newest();
+	std::vector<ImageChange> changes;
+	inbox.update([&](Inbox &box) {
+		frame.sources = box.sources;
+		frame.settings = box.settings;
+		changes.swap(box.imageChanges);
+		frame.wanted.swap(box.wanted);
+	});
+	return changes;
+}
+
+void Compositor::Loop::latchLayers(Frame &frame, Latched &latched) const
+{
 	const auto isGone = [this](const auto &view) { return view && !images_.contains(view->texture.image); };
-	for (const auto &source : sources) {
-		const auto content = contents.emplace_back(source->content());
-		if (!content) continue;
+	for (const auto &source : frame.sources) {
+		const auto content = frame.contents.emplace_back(source->content());
+		if (!content || frame.settings.rawPassthrough) continue;
 		latched.blendMode = content->blendMode; // the topmost application decides
 		for (PanelLayer layer : content->layers) {
 			for (size_t eye = 0; eye < 2; ++eye) {
@@ -62,7 +71,6 @@ Latched Compositor::Loop::latch(const Sources &sources, Contents &contents)
 			latched.layers.push_back(std::move(layer));
 		}
 	}
-	return latched;
 }
 
 void Compositor::Loop::publishTiming(const Pacer::Refresh &refresh)
@@ -75,7 +83,7 @@ void Compositor::Loop::publishTiming(const Pacer::Refresh &refresh)
 	timing.latchBeforeDisplay = refresh.display - refresh.latch;
 	surroundings_.page.timing.write(timing);
 	const ClockAnchor anchor = surroundings_.clock.anchor();
-	if (stepped_) surroundings_.page.clock.write({anchor.realAnchor, anchor.xrAnchor, anchor.rate});
+	if (rate_ == 0) surroundings_.page.clock.write({anchor.realAnchor, anchor.xrAnchor, anchor.rate});
 }
 
 Pacer::Refresh Compositor::Loop::after(const Pacer::Refresh &refresh) const
@@ -93,64 +101,108 @@ void Compositor::Loop::wake(const Sources &sources, const Pacer::Refresh &refres
 	for (const auto &source : sources) source->wake({following.display, pacer_.period(), following.latch});
 }
 
-void Compositor::Loop::record(const PanelInputs &inputs, const MotionSample &newest, XrTime display, XrDuration cost)
+void Compositor::Loop::record(const Frame &frame)
 {
-	ShownFrame shown{.displayTime = display, .period = pacer_.period(), .composeCost = cost};
+	const XrTime display = frame.result.display;
+	ShownFrame shown{.displayTime = display, .period = pacer_.period(), .composeCost = frame.cost, .stages = frame.stages};
 	for (size_t eye = 0; eye < 2; ++eye)
-		if (inputs.cameras[eye]) shown.cameraAge[eye] = display - inputs.cameras[eye]->frame.midExposure;
-	if (newest.time != 0) shown.poseAge = display - newest.time;
+		if (const auto &camera = frame.inputs.cameras[eye]) shown.cameraAge[eye] = display - camera->frame.midExposure;
+	if (frame.newest.time != 0) shown.poseAge = display - frame.newest.time;
 	report.update([&](Report &kept) { kept.record.add(shown); });
 }
 
-void Compositor::Loop::hand(std::vector<Wanted> wanted, const PanelInputs &inputs, XrTime display)
+/// Stages follow each other: their times say when each began.
+void Compositor::Loop::trace(const Frame &frame, XrTime realBegan)
 {
-	for (Wanted &each : wanted) {
+	frameNumber_++;
+	if (!surroundings_.trace) return;
+	XrTime begin = realBegan - frame.stages.front();
+	for (size_t stage = 0; stage < frame.stages.size(); ++stage) {
+		surroundings_.trace->add({frameStageNames[stage], begin, frame.stages[stage], 0, frameNumber_});
+		begin += frame.stages[stage];
+	}
+	if (rate_ <= 0) return;
+	const XrTime now = surroundings_.clock.now(), realNow = realTime();
+	const auto real = [&](XrDuration duration) { return XrDuration(double(duration) / rate_); };
+	for (size_t i = 0; i < frame.sources.size(); ++i)
+		if (const auto &content = frame.contents[i])
+			surroundings_.trace->add({"received until seen", realNow - real(now - content->received),
+									  real(frame.result.display - content->received), frame.sources[i]->number(), content->frame});
+}
+
+void Compositor::Loop::hand(Frame &frame)
+{
+	for (Wanted &each : frame.wanted) {
 		try {
-			each.promise.set_value({each.kind == ipc::PictureKind::panel ? panel_->readPanel() : panel_->renderEyes(inputs), display});
+			const bool panel = each.kind == ipc::PictureKind::panel;
+			each.promise.set_value({panel ? panel_->readPanel() : panel_->renderEyes(frame.inputs), frame.result.display});
 		} catch (const std::exception &) {
 			each.promise.set_exception(std::current_exception());
 		}
 	}
 }
 
+void Compositor::Loop::choose(const Pacer::Refresh &refresh, Frame &frame)
+{
+	publishTiming(refresh);
+	Latched latched{.passthroughDistance = frame.settings.passthroughDistance};
+	for (size_t eye = 0; eye < 2; ++eye)
+		if (surroundings_.cameras[eye]) latched.cameras[eye] = surroundings_.cameras[eye]->newest();
+	latchLayers(frame, latched);
+	surroundings_.poses.newest(frame.newest);
+	if (const auto views = surroundings_.page.views.read()) views_ = *views;
+	frame.inputs = assemble(surroundings_.rig, views_, surroundings_.poses, refresh.display, std::move(latched));
+	fade_.apply(frame.inputs);
+	wake(frame.sources, refresh); // they draw for the refresh after this one while this one is drawn
+}
+
+void Compositor::Loop::show(const Pacer::Refresh &refresh, Frame &frame)
+{
+	frame.result = panel_->present(refresh);
+	pacer_.displayed(frame.result.display);
+	lastDisplay_ = frame.result.display;
+	for (size_t i = 0; i < frame.sources.size(); ++i)
+		if (frame.contents[i]) frame.sources[i]->displayed(*frame.contents[i], frame.result.display);
+	if (frame.result.rawKeys % 2 == 0) return;
+	inbox.update([](Inbox &box) {
+		box.settings.rawPassthrough = !box.settings.rawPassthrough;
+		log::info("key: {}", box.settings.rawPassthrough ? "the cameras alone are shown" : "holograms are shown again");
+	});
+}
+
+XrDuration Compositor::Loop::lateness(const Pacer::Refresh &refresh, XrTime now) const
+{
+	return rate_ > 0 && now > refresh.latch ? XrDuration(double(now - refresh.latch) / rate_) : 0;
+}
+
 bool Compositor::Loop::frame(const Pacer::Refresh &refresh)
 {
 	Clock &clock = surroundings_.clock;
-	Sources sources;
-	std::vector<ImageChange> changes;
-	std::vector<Wanted> wanted;
-	Latched latched;
-	double passthroughDistance = 0;
-	inbox.update([&](Inbox &box) {
-		sources = box.sources;
-		changes.swap(box.imageChanges);
-		wanted.swap(box.wanted);
-		passthroughDistance = box.passthroughDistance;
-	});
-	changeImages(std::move(changes));
-
+	Frame frame;
+	auto &[wakeLate, choosing, planning, uploading, recording, drawing, presenting] = frame.stages;
 	const XrTime began = clock.now(), realBegan = realTime();
-	publishTiming(refresh);
-	Contents contents;
-	latched = latch(sources, contents);
-	latched.passthroughDistance = passthroughDistance;
-	MotionSample newest;
-	surroundings_.poses.newest(newest);
-	if (const auto views = surroundings_.page.views.read()) views_ = *views;
-	PanelInputs inputs = assemble(surroundings_.rig, views_, surroundings_.poses, refresh.display, std::move(latched));
-	fade_.apply(inputs);
-	wake(sources, refresh); // they draw for the refresh after this one while this one is drawn
-
-	panel_->render(inputs);
-	for (size_t i = 0; i < sources.size(); ++i) sources[i]->shown(contents[i]);
-	const XrDuration cost = realTime() - realBegan;
+	changeImages(take(frame));
+	choose(refresh, frame);
+	const XrTime chosen = realTime();
+	panel_->render(frame.inputs);
+	for (size_t i = 0; i < frame.sources.size(); ++i) frame.sources[i]->shown(frame.contents[i]);
+	const XrTime rendered = realTime();
 	pacer_.composed(clock.now() - began);
-	const Target::Result result = panel_->present(refresh);
-	pacer_.displayed(result.display);
-	lastDisplay_ = result.display;
-	record(inputs, newest, result.display, cost);
-	hand(std::move(wanted), inputs, result.display);
-	return result.outcome == Presented::shown;
+	show(refresh, frame);
+
+	const PanelRenderer::Cost cost = panel_->cost();
+	wakeLate = lateness(refresh, began);
+	choosing = chosen - realBegan;
+	planning = fromSeconds(cost.plan);
+	uploading = fromSeconds(cost.upload);
+	recording = fromSeconds(cost.record);
+	drawing = fromSeconds(cost.wait);
+	presenting = realTime() - rendered;
+	frame.cost = rendered - realBegan;
+	record(frame);
+	trace(frame, realBegan);
+	hand(frame);
+	return frame.result.outcome == Presented::shown;
 }
 
 void Compositor::Loop::run(std::stop_token stop)
@@ -158,6 +210,7 @@ void Compositor::Loop::run(std::stop_token stop)
 	Clock &clock = surroundings_.clock;
 	End end;
 	try {
+		if (surroundings_.threadBegins) surroundings_.threadBegins();
 		// On a machine that is always late no sleep is long enough to be ended by the stop request: it is asked for as well.
 		for (Pacer::Refresh refresh = pacer_.next(clock.now()); clock.sleepUntil(refresh.latch, stop) && !stop.stop_requested();
 			 refresh = after(refresh)) {
@@ -173,6 +226,9 @@ void Compositor::Loop::run(std::stop_token stop)
 		end.problem = problem.what();
 	}
 	report.update([&](Report &kept) { kept.end = end; });
+	panel_.reset(); // no window without anything in it
+	std::vector<Wanted> unanswered;
+	inbox.update([&](Inbox &box) { box.wanted.swap(unanswered); });
 }
 
 } // namespace arift

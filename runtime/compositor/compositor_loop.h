@@ -1,5 +1,6 @@
 // The compositor's inside: what its thread owns, and what others hand to it under a lock.
 #pragma once
+#include "runtime/base/trace.h"
 #include "runtime/compositor/camera_fade.h"
 #include "runtime/compositor/compositor.h"
 #include <future>
@@ -23,12 +24,16 @@ public:
 		ipc::PictureKind kind;
 		std::promise<Picture> promise;
 	};
+	struct Settings {
+		double passthroughDistance = 2; ///< metres
+		bool rawPassthrough = false;    ///< the cameras alone: no application's layers
+	};
 	/// What other threads hand over.
 	struct Inbox {
 		std::vector<ImageChange> imageChanges;
 		std::vector<std::shared_ptr<FrameSource>> sources;
 		std::vector<Wanted> wanted;
-		double passthroughDistance = 2;
+		Settings settings;
 	};
 	struct Report {
 		FrameRecord record;
@@ -43,15 +48,33 @@ public:
 private:
 	using Sources = std::vector<std::shared_ptr<FrameSource>>;
 	using Contents = std::vector<std::shared_ptr<const FrameContent>>;
+	/// What becomes of one refresh, on its way from the inbox to the panel.
+	struct Frame {
+		Sources sources;
+		Contents contents;
+		std::vector<Wanted> wanted;
+		Settings settings;
+		PanelInputs inputs;
+		MotionSample newest;
+		StageTimes stages{};
+		XrDuration cost = 0; ///< real
+		Target::Result result;
+	};
 
 	void changeImages(std::vector<ImageChange> changes);
-	Latched latch(const Sources &sources, Contents &contents);
+	/// Takes over what others have handed in; says what images came and went.
+	std::vector<ImageChange> take(Frame &frame);
+	void latchLayers(Frame &frame, Latched &latched) const;
 	void publishTiming(const Pacer::Refresh &refresh);
 	/// The refresh to compose for once the work for `refresh` is done.
 	Pacer::Refresh after(const Pacer::Refresh &refresh) const;
 	void wake(const Sources &sources, const Pacer::Refresh &refresh);
-	void record(const PanelInputs &inputs, const MotionSample &newest, XrTime display, XrDuration cost);
-	void hand(std::vector<Wanted> wanted, const PanelInputs &inputs, XrTime display);
+	void choose(const Pacer::Refresh &refresh, Frame &frame);
+	void show(const Pacer::Refresh &refresh, Frame &frame);
+	void record(const Frame &frame);
+	void trace(const Frame &frame, XrTime realBegan);
+	void hand(Frame &frame);
+	XrDuration lateness(const Pacer::Refresh &refresh, XrTime now) const;
 	bool frame(const Pacer::Refresh &refresh);
 
 	const Surroundings surroundings_;
@@ -61,7 +84,8 @@ private:
 	ipc::ViewTable views_{};
 	CameraFade fade_;
 	XrTime lastDisplay_ = 0;
-	bool stepped_;
+	uint64_t frameNumber_ = 0;
+	const double rate_; ///< of the clock; 0: stepped
 };
 
 /// CPU time of the whole process, seconds.

@@ -9,53 +9,68 @@ namespace
 {
 
 /// Nearest rank: the smallest value that at least this share of all values does not exceed.
-double rank(const std::vector<double> &sorted, double share)
+double rank(const std::vector<XrDuration> &sorted, double share)
 {
 	const size_t index = size_t(std::max(std::ceil(share * double(sorted.size())), 1.0)) - 1;
-	return sorted[std::min(index, sorted.size() - 1)];
+	return double(sorted[std::min(index, sorted.size() - 1)]) * 1e-6;
 }
-
-Figure figureOf(std::vector<double> values)
-{
-	if (values.empty()) return {};
-	std::ranges::sort(values);
-	return {rank(values, 0.5), rank(values, 0.99)};
-}
-
-double inMilliseconds(XrDuration duration) { return double(duration) * 1e-6; }
 
 } // namespace
 
+Figure figureOf(std::vector<XrDuration> durations)
+{
+	if (durations.empty()) return {};
+	std::ranges::sort(durations);
+	return {rank(durations, 0.5), rank(durations, 0.99)};
+}
+
 void FrameRecord::add(const ShownFrame &frame)
 {
-	if (shown_ == 0) {
-		first_ = frame.displayTime;
+	if (totals_.shown == 0) {
+		totals_.first = frame.displayTime;
 	} else if (frame.period > 0) {
-		const double refreshes = std::round(double(frame.displayTime - last_) / double(frame.period));
-		if (refreshes > 1) missed_ += uint64_t(refreshes) - 1;
+		const XrDuration gap = frame.displayTime - totals_.last;
+		const double refreshes = std::round(double(gap) / double(frame.period));
+		if (refreshes > 1) totals_.missed += uint64_t(refreshes) - 1;
+		if (gap > frame.period * 3 / 2) totals_.gaps++;
+		totals_.longestGap = std::max(totals_.longestGap, gap);
 	}
-	last_ = frame.displayTime;
+	totals_.last = frame.displayTime;
+	if (!frame.cameraAge[0] || !frame.cameraAge[1]) totals_.withoutCamera++;
 	if (frames_.size() < kept)
 		frames_.push_back(frame);
 	else
-		frames_[shown_ % kept] = frame;
-	shown_++;
+		frames_[totals_.shown % kept] = frame;
+	totals_.shown++;
+}
+
+void FrameRecord::reset()
+{
+	frames_.clear();
+	totals_ = {};
 }
 
 FrameFigures FrameRecord::figures() const
 {
-	std::vector<double> cameraAges, poseAges, costs;
+	std::vector<XrDuration> cameraAges, poseAges, costs;
+	std::array<std::vector<XrDuration>, frameStageNames.size()> stages;
 	for (const ShownFrame &frame : frames_) {
 		for (const auto &age : frame.cameraAge)
-			if (age) cameraAges.push_back(inMilliseconds(*age));
-		if (frame.poseAge) poseAges.push_back(inMilliseconds(*frame.poseAge));
-		costs.push_back(inMilliseconds(frame.composeCost));
+			if (age) cameraAges.push_back(*age);
+		if (frame.poseAge) poseAges.push_back(*frame.poseAge);
+		costs.push_back(frame.composeCost);
+		for (size_t stage = 0; stage < stages.size(); ++stage) stages[stage].push_back(frame.stages[stage]);
 	}
-	FrameFigures figures{.shown = shown_, .missed = missed_};
-	if (last_ > first_) figures.perSecond = double(shown_ - 1) / inSeconds(last_ - first_);
+	FrameFigures figures{.shown = totals_.shown,
+						 .missed = totals_.missed,
+						 .gaps = totals_.gaps,
+						 .longestGap = double(totals_.longestGap) * 1e-6,
+						 .withoutCamera = totals_.withoutCamera};
+	if (totals_.last > totals_.first) figures.perSecond = double(totals_.shown - 1) / inSeconds(totals_.last - totals_.first);
 	figures.cameraAge = figureOf(std::move(cameraAges));
 	figures.poseAge = figureOf(std::move(poseAges));
 	figures.compose = figureOf(std::move(costs));
+	for (size_t stage = 0; stage < stages.size(); ++stage) figures.stages[stage] = figureOf(std::move(stages[stage]));
 	return figures;
 }
 

@@ -9,7 +9,8 @@ namespace arift
 
 /// What an application wants shown, from one submission: immutable.
 struct FrameContent {
-	uint64_t frame = 0; ///< the submission's number
+	uint64_t frame = 0;  ///< the submission's number
+	XrTime received = 0; ///< when the finished submission came
 	XrEnvironmentBlendMode blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
 	std::vector<PanelLayer> layers; ///< bottom first
 };
@@ -19,6 +20,8 @@ class FrameSource
 {
 public:
 	virtual ~FrameSource() = default;
+	/// Of the session, for people.
+	virtual uint32_t number() const { return 0; }
 	/// A refresh an application can still draw for, when it is woken now.
 	struct Opportunity {
 		XrTime displayTime = 0; ///< of the middle line
@@ -30,6 +33,8 @@ public:
 	virtual std::shared_ptr<const FrameContent> content() = 0;
 	/// The panel image with this content is finished: nothing older is read any more. Null as in content().
 	virtual void shown(const std::shared_ptr<const FrameContent> &content) = 0;
+	/// The panel image with this content is seen at `display`, as well as the target knows.
+	virtual void displayed(const FrameContent &, XrTime /*display*/) {}
 };
 
 } // namespace arift

@@ -15,13 +15,15 @@ public:
 	virtual void removeImage(uint64_t key) = 0;
 	/// Draws, and waits until the image is finished.
 	virtual void render(const PanelInputs &inputs) = 0;
+	/// Of the last render.
+	virtual PanelRenderer::Cost cost() const { return {}; }
 	/// Shows the image just drawn.
 	virtual Target::Result present(const Pacer::Refresh &refresh) = 0;
 	virtual ReadbackImage readPanel() = 0;
 	virtual ReadbackImage renderEyes(const PanelInputs &inputs) = 0;
 };
 
-/// `renderer` must outlive it.
-std::unique_ptr<Panel> makePanel(PanelRenderer &renderer, std::unique_ptr<Target> target);
+/// `renderer` must outlive it. `spare` takes the place of a target that has gone.
+std::unique_ptr<Panel> makePanel(PanelRenderer &renderer, std::unique_ptr<Target> target, std::unique_ptr<Target> spare);
 
 } // namespace arift

@@ -235,7 +235,9 @@ void PanelRenderer::Implementation::record(Canvas &canvas, const PanelInputs &in
 	const vk::Extent2D extent = canvas.extent();
 	const vk::ClearValue black{vk::ClearColorValue(std::array{0.0f, 0.0f, 0.0f, 1.0f})};
 	commands().begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+	const XrTime uploading = realTime();
 	uploadCameras(inputs);
+	cost.upload = inSeconds(realTime() - uploading);
 	layerImages.acquire(commands(), entries);
 	commands().beginRenderPass({pipelines.renderPass(), *canvas.framebuffer, {{}, extent}, black}, vk::SubpassContents::eInline);
 	commands().setViewport(0, vk::Viewport{0, 0, float(extent.width), float(extent.height), 0, 1});
@@ -253,10 +255,14 @@ void PanelRenderer::Implementation::draw(Canvas &canvas, const PanelInputs &inpu
 		const LayerImages::Entry *entry = layerImages.find(key);
 		return entry ? &entry->spec : nullptr;
 	};
-	record(canvas, inputs, makeDrawing(inputs, optics, canvas.geometry, canvas.grids, specOf));
+	const Drawing drawing = makeDrawing(inputs, optics, canvas.geometry, canvas.grids, specOf);
+	const XrTime planned = realTime();
+	record(canvas, inputs, drawing);
 	const XrTime recorded = realTime();
 	gpu.submitAndWait(commands(), fence);
-	cost = {inSeconds(recorded - begin), inSeconds(realTime() - recorded)};
+	cost.plan = inSeconds(planned - begin);
+	cost.record = inSeconds(recorded - planned) - cost.upload;
+	cost.wait = inSeconds(realTime() - recorded);
 }
 
 ReadbackImage PanelRenderer::Implementation::read(const Canvas &canvas)

@@ -39,9 +39,9 @@ public:
 	/// image().
 	void render(const PanelInputs &inputs);
 
-	/// GPU and CPU cost of the last render, seconds.
+	/// Real time that the last render took, seconds: what is drawn where, camera images copied, commands recorded, the GPU waited for.
 	struct Cost {
-		double record = 0, wait = 0;
+		double plan = 0, upload = 0, record = 0, wait = 0;
 	};
 	Cost cost() const;
 

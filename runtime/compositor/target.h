@@ -15,8 +15,8 @@ namespace gpu
 class Device;
 }
 
-/// What became of an image. `closed` is how a person ends the program, no error.
-enum class Presented { shown, closed };
+/// What became of an image. `closed` is how a person ends the program, no error; `gone`: nothing can be shown there any more.
+enum class Presented { shown, closed, gone };
 
 /// Thread-bound to the compositor's thread.
 class Target
@@ -25,7 +25,8 @@ public:
 	virtual ~Target() = default;
 	struct Result {
 		Presented outcome = Presented::shown;
-		XrTime display = 0; ///< when the image's middle line is seen, as well as the target knows
+		XrTime display = 0;   ///< when the image's middle line is seen, as well as the target knows
+		uint32_t rawKeys = 0; ///< presses of the key that asks for raw passthrough, and for holograms again
 	};
 	/// Shows `image` (layout TRANSFER_SRC_OPTIMAL before and after, finished) at the refresh planned, or as soon as it can after that.
 	/// May sleep until the image has been taken, but no longer than a few refreshes. Throws std::runtime_error when the GPU is lost.

@@ -2,8 +2,10 @@
 #include "runtime/base/log.h"
 #include "runtime/compositor/target.h"
 #include "runtime/gpu/handles.h"
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 #include <xcb/xcb.h>
 
@@ -35,7 +37,7 @@ public:
 		if (xcb_connection_has_error(connection_.get())) throw std::runtime_error("no X display can be opened (DISPLAY)");
 		const xcb_screen_t *screen = xcb_setup_roots_iterator(xcb_get_setup(connection_.get())).data;
 		window_ = xcb_generate_id(connection_.get());
-		const uint32_t values[] = {screen->black_pixel, XCB_EVENT_MASK_STRUCTURE_NOTIFY};
+		const uint32_t values[] = {screen->black_pixel, XCB_EVENT_MASK_STRUCTURE_NOTIFY | XCB_EVENT_MASK_KEY_PRESS};
 		xcb_create_window(connection_.get(), XCB_COPY_FROM_PARENT, window_, screen->root, 0, 0, uint16_t(size.width), uint16_t(size.height),
 						  0, XCB_WINDOW_CLASS_INPUT_OUTPUT, screen->root_visual, XCB_CW_BACK_PIXEL | XCB_CW_EVENT_MASK, values);
 		xcb_change_property(connection_.get(), XCB_PROP_MODE_REPLACE, window_, XCB_ATOM_WM_NAME, XCB_ATOM_STRING, 8,
@@ -43,20 +45,31 @@ public:
 		const xcb_atom_t protocols = atom("WM_PROTOCOLS");
 		deleteWindow_ = atom("WM_DELETE_WINDOW");
 		xcb_change_property(connection_.get(), XCB_PROP_MODE_REPLACE, window_, protocols, XCB_ATOM_ATOM, 32, 1, &deleteWindow_);
+		escapeKeys_ = keysFor(escape);
 		xcb_map_window(connection_.get(), window_);
 		xcb_flush(connection_.get());
 	}
 
-	/// False once a person has closed it, or the display is gone.
-	bool stillOpen()
+	/// What has happened since the last call.
+	struct News {
+		bool closed = false;  ///< by a person, or by another program: now or earlier
+		uint32_t rawKeys = 0; ///< presses of the Escape key
+	};
+	News news()
 	{
+		News news;
 		while (const Reply<xcb_generic_event_t> event{xcb_poll_for_event(connection_.get())}) {
 			const uint8_t type = event->response_type & 0x7f;
 			const auto *message = reinterpret_cast<const xcb_client_message_event_t *>(event.get());
-			if (type == XCB_DESTROY_NOTIFY || (type == XCB_CLIENT_MESSAGE && message->data.data32[0] == deleteWindow_)) open_ = false;
+			const auto *key = reinterpret_cast<const xcb_key_press_event_t *>(event.get());
+			if (type == XCB_DESTROY_NOTIFY || (type == XCB_CLIENT_MESSAGE && message->data.data32[0] == deleteWindow_)) closed_ = true;
+			if (type == XCB_KEY_PRESS && std::ranges::find(escapeKeys_, key->detail) != escapeKeys_.end()) news.rawKeys++;
 		}
-		return open_ && !xcb_connection_has_error(connection_.get());
+		news.closed = closed_;
+		return news;
 	}
+	/// The display has gone away.
+	bool isGone() const { return xcb_connection_has_error(connection_.get()) != 0; }
 	xcb_connection_t *connection() const { return connection_.get(); }
 	xcb_window_t window() const { return window_; }
 
@@ -67,10 +80,28 @@ private:
 		const Reply<xcb_intern_atom_reply_t> reply{xcb_intern_atom_reply(connection_.get(), cookie, nullptr)};
 		return reply ? reply->atom : xcb_atom_t(XCB_ATOM_NONE);
 	}
+	/// The keys that make a symbol, in whatever row of the keyboard's table.
+	std::vector<xcb_keycode_t> keysFor(xcb_keysym_t symbol)
+	{
+		const xcb_setup_t *setup = xcb_get_setup(connection_.get());
+		const uint8_t first = setup->min_keycode, count = uint8_t(setup->max_keycode - first + 1);
+		const auto cookie = xcb_get_keyboard_mapping(connection_.get(), first, count);
+		const Reply<xcb_get_keyboard_mapping_reply_t> reply{xcb_get_keyboard_mapping_reply(connection_.get(), cookie, nullptr)};
+		std::vector<xcb_keycode_t> keys;
+		if (!reply || reply->keysyms_per_keycode == 0) return keys;
+		const std::span symbols(xcb_get_keyboard_mapping_keysyms(reply.get()),
+								size_t(xcb_get_keyboard_mapping_keysyms_length(reply.get())));
+		for (size_t i = 0; i < symbols.size(); ++i)
+			if (symbols[i] == symbol) keys.push_back(xcb_keycode_t(first + i / reply->keysyms_per_keycode));
+		return keys;
+	}
+
+	static constexpr xcb_keysym_t escape = 0xff1b; // XK_Escape of X11/keysymdef.h
 	std::unique_ptr<xcb_connection_t, decltype([](xcb_connection_t *c) { xcb_disconnect(c); })> connection_;
 	xcb_window_t window_ = 0;
 	xcb_atom_t deleteWindow_ = XCB_ATOM_NONE;
-	bool open_ = true;
+	std::vector<xcb_keycode_t> escapeKeys_;
+	bool closed_ = false;
 };
 
 vk::raii::SurfaceKHR makeSurface(const gpu::Device::Handles &gpu, const XcbWindow &window)
@@ -122,11 +153,12 @@ public:
 
 	Result present(VkImage image, VkExtent2D extent, const Pacer::Refresh &refresh) override
 	{
-		const bool open = window_.stillOpen();
-		if (open) show(image, extent);
+		const XcbWindow::News news = window_.news();
+		if (!window_.isGone() && !news.closed) show(image, extent);
 		const XrDuration late = clock_.now() - refresh.vblank;
 		const XrDuration refreshesLate = late <= 0 ? 0 : (late + period_ - 1) / period_;
-		return {open ? Presented::shown : Presented::closed, refresh.display + refreshesLate * period_};
+		const Presented outcome = window_.isGone() ? Presented::gone : news.closed ? Presented::closed : Presented::shown;
+		return {outcome, refresh.display + refreshesLate * period_, news.rawKeys};
 	}
 	std::string name() const override { return "window"; }
 
@@ -174,7 +206,12 @@ private:
 		} catch (const vk::OutOfDateKHRError &) {
 			forgetSwapchain();
 		} catch (const vk::SurfaceLostKHRError &) {
-			log::warning("the window's surface is lost");
+			log::warning("the window's surface is lost: another is made");
+			forgetSwapchain();
+			surface_ = nullptr;
+			surface_ = makeSurface(gpu_, window_);
+		} catch (const vk::SystemError &) {
+			if (!window_.isGone()) throw;
 			forgetSwapchain();
 		}
 	}

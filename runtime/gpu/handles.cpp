@@ -1,5 +1,5 @@
 #include "runtime/gpu/handles.h"
-#include "runtime/base/log.h"
+#include "runtime/base/error.h"
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
@@ -158,9 +158,9 @@ void Device::Handles::submitAndWait(const vk::raii::CommandBuffer &commands, con
 		log::error("the GPU did not finish within {} ms", patience / 1ms);
 		// What unwinding destroys must not be in use any more. The kernel resets a GPU that hangs; one that still works after that can
 		// only be left by ending the process, whose parent starts it anew.
-		if (device.waitForFences(*fence, true, uint64_t((10 * patience).count())) != vk::Result::eSuccess) {
+		if (device.waitForFences(*fence, true, uint64_t(patience.count())) != vk::Result::eSuccess) {
 			log::error("the GPU hangs: this process ends");
-			std::_Exit(EXIT_FAILURE);
+			std::_Exit(exitAfterFault);
 		}
 		throw std::runtime_error(fmt::format("the GPU did not finish within {} ms", patience / 1ms));
 	}

@@ -234,7 +234,7 @@ struct Picture {
 	uint32_t width = 0, height = 0; ///< RGBA8, sRGB encoded, rows without padding
 	XrTime displayTime = 0;         ///< of the middle line
 };
-enum class Setting : uint32_t { viewOffset, passthroughDistance };
+enum class Setting : uint32_t { viewOffset, passthroughDistance, rawPassthrough /**< not 0: the cameras alone, no holograms */ };
 struct SetSetting {
 	static constexpr MessageType type = MessageType::setSetting;
 	Header header{type};

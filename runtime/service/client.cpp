@@ -60,6 +60,8 @@ void Client::serve(const std::stop_token &stop)
 	socket_.hangUp();
 	stopSession();
 	swapchains_.reset();
+	compositor_.reset();
+	device_.reset();
 	if (application_) world_.applications.forget(**page_);
 	finished_ = true;
 }
@@ -84,7 +86,8 @@ void Client::answer(const Request &request)
 void Client::answer(const ipc::Hello &message)
 {
 	greeted_ = true;
-	about_.update([&](About &about) { about = About{peerPid_, ipc::textOf(message.applicationName), nullptr}; });
+	const bool isApplication = message.role == ipc::Role::application;
+	about_->update([&](About &about) { about = {peerPid_, ipc::textOf(message.applicationName), isApplication, nullptr}; });
 	if (message.protocol != ipc::protocol) {
 		refuse(message.header, XR_ERROR_RUNTIME_UNAVAILABLE,
 			   fmt::format("this library ({}) speaks protocol {}, the running service ({}) speaks {}: restart the service (arift stop)",
@@ -92,7 +95,7 @@ void Client::answer(const ipc::Hello &message)
 		socket_.hangUp();
 		return;
 	}
-	application_ = message.role == ipc::Role::application;
+	application_ = isApplication;
 	const Opened opened = world_.await(Stage::identified, ipc::openingLimit);
 	if (application_) world_.applications.introduce(**page_);
 	const std::array fds{world_.system.fd(), world_.poses.fd(), page_->fd()};
@@ -107,8 +110,9 @@ void Client::answer(const ipc::CreateSession &message)
 		(message.deviceUuid != opened.device->identity().deviceUuid || message.driverUuid != opened.device->identity().driverUuid))
 		throw Refused(XR_ERROR_GRAPHICS_DEVICE_INVALID,
 					  fmt::format("the application draws on another GPU than the service, which uses {}", opened.device->identity().name));
+	device_ = opened.device;
 	compositor_ = opened.compositor;
-	if (!swapchains_) swapchains_ = std::make_unique<Swapchains>(*compositor_);
+	swapchains_ = std::make_unique<Swapchains>(compositor_);
 	auto [ours, theirs] = ipc::Socket::pair();
 	const uint32_t number = nextSession++;
 	session_ = std::make_shared<Session>(
@@ -117,7 +121,7 @@ void Client::answer(const ipc::CreateSession &message)
 			log::warning("client {} is disconnected: {}", peerPid_, problem);
 			socket_.hangUp();
 		});
-	about_.update([&](About &about) { about.session = session_; });
+	about_->update([&](About &about) { about.session = session_; });
 	const int fd = theirs.fd();
 	ipc::SessionCreated created;
 	created.session = number;
@@ -136,7 +140,7 @@ void Client::stopSession()
 	session_->close();
 	compositor_->removeSource(*session_);
 	world_.applications.end(**page_, session_->number(), world_.clock.now());
-	about_.update([](About &about) { about.session.reset(); });
+	about_->update([](About &about) { about.session.reset(); });
 	session_.reset(); // the compositor may hold the closed session for the rest of its frame
 }
 
@@ -144,7 +148,7 @@ void Client::answer(const ipc::DestroySession &message)
 {
 	sessionNumbered(message.session);
 	stopSession();
-	swapchains_->destroyAll();
+	swapchains_.reset();
 	reply(message.header, ipc::Done{});
 }
 
@@ -165,7 +169,8 @@ void Client::answer(const ipc::SessionRunning &message)
 void Client::answer(const ipc::CreateSwapchain &message)
 {
 	sessionNumbered(message.session);
-	const Swapchains::Made made = swapchains_->make(*world_.await(Stage::ready, 0).device, message.spec, message.imageCount);
+	if (compositor_->ended()) throw Refused(XR_ERROR_SESSION_LOST, "the GPU that the session drew on was lost");
+	const Swapchains::Made made = swapchains_->make(*device_, message.spec, message.imageCount);
 	std::vector<int> fds;
 	for (const UniqueFd &memory : made.memory) fds.push_back(memory.get());
 	ipc::SwapchainCreated created;

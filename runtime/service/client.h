@@ -22,15 +22,16 @@ public:
 
 	/// Its thread has ended: the object may go.
 	bool finished() const { return finished_; }
-	void describe(nlohmann::json &list);
-
-private:
+	/// What others may know of it; lives on when the client has gone.
 	struct About {
 		uint32_t pid = 0;
 		std::string name;
+		bool application = false;
 		std::shared_ptr<Session> session;
 	};
+	std::shared_ptr<Guarded<About>> about() const { return about_; }
 
+private:
 	void serve(const std::stop_token &stop);
 	void answer(const Request &request);
 	void answer(const ipc::Hello &message);
@@ -60,11 +61,15 @@ private:
 	std::atomic<bool> finished_ = false, application_ = false;
 	bool greeted_ = false;
 	const std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page_;
-	Compositor *compositor_ = nullptr; ///< from the first session on
+	std::shared_ptr<gpu::Device> device_;    ///< while there is a session
+	std::shared_ptr<Compositor> compositor_; ///< while there is a session
 	std::unique_ptr<Swapchains> swapchains_;
 	std::shared_ptr<Session> session_;
-	Guarded<About> about_{};
+	const std::shared_ptr<Guarded<About>> about_ = std::make_shared<Guarded<About>>();
 	std::jthread thread_;
 };
+
+/// One entry for `arift status` where it is an application.
+void describeClient(nlohmann::json &list, const Client::About &about);
 
 } // namespace arift

@@ -19,6 +19,7 @@ void Client::answer(const ipc::GetStatus &message)
 {
 	const Opened opened = world_.await(Stage::ready, ipc::openingLimit);
 	nlohmann::json status = describeService(world_.config, opened.compositor->figures(message.resetFigures != 0));
+	status["passthrough"] = {{"raw", opened.compositor->rawPassthrough()}};
 	opened.describeHeadset(status);
 	world_.describeClients(status["clients"] = nlohmann::json::array());
 	const std::string text = status.dump();
@@ -46,16 +47,20 @@ void Client::answer(const ipc::Screenshot &message)
 void Client::answer(const ipc::SetSetting &message)
 {
 	const Opened opened = world_.await(Stage::ready, ipc::openingLimit);
-	if (message.setting == ipc::Setting::viewOffset) {
+	switch (message.setting) {
+	case ipc::Setting::viewOffset:
 		if (message.value < 0 || message.value > 1)
 			throw Refused(XR_ERROR_VALIDATION_FAILURE,
 						  fmt::format("view_offset = {}, expected a number from 0 (eye) to 1 (camera)", message.value));
 		world_.views.update([&](ipc::ViewTable &views) { views.viewOffset = message.value; });
-	} else {
+		break;
+	case ipc::Setting::passthroughDistance:
 		if (message.value < 0.1f || message.value > 1000)
 			throw Refused(XR_ERROR_VALIDATION_FAILURE,
 						  fmt::format("passthrough_distance = {}, expected metres from 0.1 to 1000", message.value));
 		opened.compositor->setPassthroughDistance(double(message.value));
+		break;
+	case ipc::Setting::rawPassthrough: opened.compositor->setRawPassthrough(message.value != 0); break;
 	}
 	reply(message.header, ipc::Done{});
 }
@@ -81,16 +86,17 @@ void Client::answer(const ipc::ShutDown &message)
 	world_.requestStop();
 }
 
-void Client::describe(nlohmann::json &list)
+void describeClient(nlohmann::json &list, const Client::About &about)
 {
-	if (!application_) return;
-	const About about = [&] { return *about_.lock(); }();
-	nlohmann::json entry{{"pid", about.pid}, {"name", about.name}, {"state", "connected"}, {"submitted", 0}, {"shown", 0}};
+	if (!about.application) return;
+	nlohmann::json entry{{"pid", about.pid}, {"name", about.name}, {"state", "connected"},
+						 {"submitted", 0},   {"shown", 0},         {"latencyMs", describe(Figure{})}};
 	if (about.session) {
 		const Session::Count count = about.session->count();
 		entry["state"] = about.session->running() ? "running" : "idle";
 		entry["submitted"] = count.submitted;
 		entry["shown"] = count.shown;
+		entry["latencyMs"] = describe(about.session->latency());
 	}
 	list.push_back(std::move(entry));
 }

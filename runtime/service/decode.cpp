@@ -53,7 +53,7 @@ void check(const ipc::GetStatus &message) { require(message.resetFigures <= 1, "
 void check(const ipc::Screenshot &message) { require(message.kind <= ipc::PictureKind::eyes, "screenshot of an unknown kind"); }
 void check(const ipc::SetSetting &message)
 {
-	require(message.setting <= ipc::Setting::passthroughDistance, "unknown setting");
+	require(message.setting <= ipc::Setting::rawPassthrough, "unknown setting");
 	require(std::isfinite(message.value), "setting is not a number");
 }
 void check(const ipc::Recenter &) {}

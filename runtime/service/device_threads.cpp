@@ -135,8 +135,8 @@ void Headset::CameraThread::run(std::stop_token stop)
 
 // ---- tracker
 
-Headset::TrackerThread::TrackerThread(const Rig &rig, DriverDoor &door, Clock &clock, PoseRing &poses)
-	: rig_(rig), door_(door), clock_(clock), poses_(poses), tracker_(door.openTracker())
+Headset::TrackerThread::TrackerThread(const Rig &rig, DriverDoor &door, Clock &clock, PoseRing &poses, std::function<void()> begins)
+	: rig_(rig), door_(door), clock_(clock), poses_(poses), begins_(std::move(begins)), tracker_(door.openTracker())
 {
 	if (!tracker_) {
 		log::warning("head tracker: not there");
@@ -177,6 +177,7 @@ Outcome Headset::TrackerThread::readOne(ImuReport &report, const std::stop_token
 void Headset::TrackerThread::run(std::stop_token stop)
 {
 	BackOff backOff;
+	if (begins_) begins_();
 	PoseWriter writer(poses_);
 	std::optional<HeadTracker> motion; // lives on when the device is lost: the heading stands
 	bool reopened = false;

@@ -72,7 +72,7 @@ private:
 };
 
 struct Headset::TrackerThread {
-	TrackerThread(const Rig &rig, DriverDoor &door, Clock &clock, PoseRing &poses);
+	TrackerThread(const Rig &rig, DriverDoor &door, Clock &clock, PoseRing &poses, std::function<void()> begins);
 	void start();
 	TrackerStatus status() { return *status_.lock(); }
 
@@ -85,6 +85,7 @@ private:
 	DriverDoor &door_;
 	Clock &clock_;
 	PoseRing &poses_;
+	const std::function<void()> begins_;
 	std::unique_ptr<ImuTracker> tracker_;
 	Guarded<TrackerStatus> status_{};
 	std::jthread thread_;

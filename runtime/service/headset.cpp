@@ -52,12 +52,13 @@ std::unique_ptr<Driver> driverFor(const Config &config, const Rig &rig, Clock &c
 	return makeDriver(config.driver, context);
 }
 
-Headset::Headset(const Rig &rig, Driver &driver, Clock &clock, PoseRing &poses, std::array<CameraFeed *, 2> feeds, FrameAllocator allocate)
+Headset::Headset(const Rig &rig, Driver &driver, Clock &clock, PoseRing &poses, std::array<CameraFeed *, 2> feeds, FrameAllocator allocate,
+				 std::function<void()> trackerBegins)
 	: door_(std::make_unique<DriverDoor>(driver))
 {
 	for (uint32_t eye = 0; eye < 2; ++eye)
 		if (eye < rig.cameras.size()) cameras_.push_back(std::make_unique<CameraThread>(rig, *door_, clock, *feeds[eye], allocate, eye));
-	tracker_ = std::make_unique<TrackerThread>(rig, *door_, clock, poses);
+	tracker_ = std::make_unique<TrackerThread>(rig, *door_, clock, poses, std::move(trackerBegins));
 	for (const auto &camera : cameras_) camera->start();
 	tracker_->start();
 }

@@ -25,8 +25,10 @@ std::unique_ptr<Driver> driverFor(const Config &config, const Rig &rig, Clock &c
 class Headset
 {
 public:
-	/// Everything given must outlive it. Devices are opened here, so that what is wrong with a recording is said at once (InputError).
-	Headset(const Rig &rig, Driver &driver, Clock &clock, PoseRing &poses, std::array<CameraFeed *, 2> feeds, FrameAllocator allocate);
+	/// Everything given must outlive it. `trackerBegins` is called first by the tracker's thread. Devices are opened here, so that what is
+	/// wrong with a recording is said at once (InputError).
+	Headset(const Rig &rig, Driver &driver, Clock &clock, PoseRing &poses, std::array<CameraFeed *, 2> feeds, FrameAllocator allocate,
+			std::function<void()> trackerBegins = {});
 	~Headset();
 
 	std::vector<CameraStatus> cameras();

@@ -28,11 +28,12 @@ PanelLayer layerOf(const ipc::Layer &layer)
 
 } // namespace
 
-std::shared_ptr<const FrameContent> contentOf(const ipc::Submission &submission)
+std::shared_ptr<const FrameContent> contentOf(const ipc::Submission &submission, XrTime received)
 {
 	if (submission.layerCount == 0) return nullptr;
 	auto content = std::make_shared<FrameContent>();
 	content->frame = submission.frame;
+	content->received = received;
 	content->blendMode = XrEnvironmentBlendMode(submission.blendMode);
 	for (uint32_t i = 0; i < submission.layerCount; ++i) content->layers.push_back(layerOf(submission.layers[i]));
 	return content;

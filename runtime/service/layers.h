@@ -7,6 +7,6 @@ namespace arift
 {
 
 /// Null for a submission without layers: nothing is to be shown.
-std::shared_ptr<const FrameContent> contentOf(const ipc::Submission &submission);
+std::shared_ptr<const FrameContent> contentOf(const ipc::Submission &submission, XrTime received);
 
 } // namespace arift

@@ -3,6 +3,7 @@
 #include "runtime/ipc/runtime_directory.h"
 #include "runtime/service/build.h"
 #include "runtime/service/service.h"
+#include "runtime/service/supervisor.h"
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
@@ -31,6 +32,7 @@ public:
 		if (fd) pipe_ = UniqueFd(std::atoi(fd));
 		::unsetenv(ipc::launchFdVariable);
 	}
+	/// Empty: nothing is wrong.
 	void complain(const std::string &problem)
 	{
 		if (pipe_) [[maybe_unused]]
@@ -50,16 +52,20 @@ public:
 	{
 		sigset_t set;
 		sigemptyset(&set);
-		for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, number);
+		for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) sigaddset(&set, number);
 		pthread_sigmask(SIG_BLOCK, &set, nullptr);
 		std::signal(SIGPIPE, SIG_IGN);
+		std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of its writer
 		return set;
 	}
 	SignalThread(const sigset_t &set, Service &service)
 		: thread_([set, &service](std::stop_token stop) {
 			  const timespec slice{0, 100'000'000};
-			  while (!stop.stop_requested())
-				  if (sigtimedwait(&set, nullptr, &slice) > 0) service.stop();
+			  while (!stop.stop_requested()) switch (sigtimedwait(&set, nullptr, &slice)) {
+				  case -1: break;
+				  case SIGXCPU: service.realtime().giveBack(); break;
+				  default: service.stop();
+				  }
 		  })
 	{
 	}
@@ -85,8 +91,11 @@ int serve(const Arguments &arguments)
 	Service service(std::move(options), listener);
 	const SignalThread thread(signals, service);
 	log::info("{} listens on {}", buildId, ipc::socketPath().string());
-	const std::string problem = service.run();
-	if (!problem.empty()) throw InputError("{}", problem);
+	const Service::End end = service.run();
+	if (!end.problem.empty()) {
+		log::error("{}", end.problem);
+		return end.fault ? exitAfterFault : 1;
+	}
 	log::info("ends");
 	return 0;
 }
@@ -104,6 +113,8 @@ int main(int argc, char **argv)
 	app.add_flag("--launched", arguments.launched, "started by an application: leaves a minute after the last one");
 	app.set_version_flag("--version", buildId);
 	CLI11_PARSE(app, argc, argv);
+	if (arguments.launched)
+		if (const auto status = supervise([] { Launcher().complain({}); })) return *status;
 	Launcher launcher;
 	try {
 		return serve(arguments);

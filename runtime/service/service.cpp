@@ -1,5 +1,6 @@
 #include "runtime/service/service.h"
 #include "runtime/service/system.h"
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 namespace arift
@@ -21,6 +22,19 @@ std::unique_ptr<Clock> makeClock(const Config &config)
 	return makeRealClock();
 }
 
+/// A trace is wanted by somebody who looks for something: that it cannot be written is no reason not to serve.
+std::unique_ptr<Trace> makeTrace()
+{
+	const char *file = std::getenv("ARIFT_TRACE");
+	if (!file || !*file) return nullptr;
+	try {
+		return std::make_unique<Trace>(file);
+	} catch (const std::exception &problem) {
+		log::warning("no trace is written: {}", problem.what());
+		return nullptr;
+	}
+}
+
 } // namespace
 
 Service::Service(Options options, ipc::Listener &listener)
@@ -35,18 +49,17 @@ Service::Service(Options options, ipc::Listener &listener)
 	world_.system->clock.write({anchor.realAnchor, anchor.xrAnchor, anchor.rate});
 	world_.system->heartbeat = realTime();
 	world_.requestStop = [this] { stop(); };
-	world_.describeClients = [this](nlohmann::json &list) {
-		const auto clients = clients_.lock();
-		for (Client &client : *clients) client.describe(list);
-	};
+	world_.describeClients = [this](nlohmann::json &list) { describeClients(list); };
+	world_.trace = makeTrace();
 	opener_ = std::jthread([this] { open(); });
 	heart_ = std::jthread([this](std::stop_token stop) { beat(stop); });
 }
 
 Service::~Service()
 {
+	opener_.request_stop();
 	opener_.join();
-	// Out of the list first: a client that is describing all clients waits for the list's lock, and is waited for here.
+	// Out of the list first: a client that asks for the list's lock is waited for here.
 	std::list<Client> leaving;
 	clients_.update([&](std::list<Client> &clients) { leaving.swap(clients); });
 	leaving.clear();
@@ -62,18 +75,57 @@ void Service::beat(const std::stop_token &stop)
 	}
 }
 
+void Service::fail(const std::string &problem, bool fault)
+{
+	world_.opened.update([&](Opened &opened) {
+		opened.stage = Stage::failed;
+		opened.problem = problem;
+		opened.fault = fault;
+	});
+}
+
 void Service::open()
 {
-	const auto fail = [this](const std::string &problem) {
-		world_.opened.update([&](Opened &opened) {
-			opened.stage = Stage::failed;
-			opened.problem = problem;
-		});
-	};
 	try {
 		system_ = std::make_unique<System>(world_);
 	} catch (const std::exception &problem) {
-		fail(problem.what());
+		fail(problem.what(), false);
+	}
+}
+
+/// Sessions end with the GPU that their images lie on; clients stay connected and may begin new ones.
+void Service::recover(const std::string &problem)
+{
+	world_.opened.update([](Opened &opened) {
+		opened.stage = Stage::identified;
+		opened.device.reset();
+		opened.compositor.reset();
+	});
+	for (const auto &about : abouts())
+		if (const auto session = about->lock()->session) session->hangUp();
+	opener_ = std::jthread([this, problem](const std::stop_token &stop) {
+		try {
+			system_->recompose(problem, stop);
+		} catch (const std::exception &last) {
+			fail(last.what(), true);
+		}
+	});
+}
+
+std::vector<std::shared_ptr<Guarded<Client::About>>> Service::abouts()
+{
+	std::vector<std::shared_ptr<Guarded<Client::About>>> all;
+	const auto clients = clients_.lock();
+	for (const Client &client : *clients) all.push_back(client.about());
+	return all;
+}
+
+/// Nobody who comes or goes waits for this.
+void Service::describeClients(nlohmann::json &list)
+{
+	for (const auto &about : abouts()) {
+		const Client::About copy = *about->lock();
+		describeClient(list, copy);
 	}
 }
 
@@ -107,7 +159,7 @@ void Service::admit(ipc::Socket socket)
 	}
 }
 
-std::string Service::run()
+Service::End Service::run()
 {
 	XrTime failedAt = 0;
 	while (!stopping_ && !mayLeave()) {
@@ -120,9 +172,14 @@ std::string Service::run()
 		const Opened opened = *world_.opened.lock();
 		if (opened.stage == Stage::failed && failedAt == 0) failedAt = realTime();
 		// Who asked in the meantime is told the reason before the door closes.
-		if (opened.stage == Stage::failed && realTime() - failedAt > lastWords) return opened.problem;
+		if (opened.stage == Stage::failed && realTime() - failedAt > lastWords) return {opened.problem, opened.fault};
 		if (opened.stage != Stage::ready) continue;
-		if (const auto end = opened.compositor->ended()) return end->problem;
+		const auto end = opened.compositor->ended();
+		if (end && end->closed) {
+			log::info("the window was closed");
+			break;
+		}
+		if (end) recover(end->problem);
 	}
 	world_.opened.update([](Opened &opened) { opened.stage = opened.stage == Stage::failed ? Stage::failed : Stage::stopping; });
 	return {};

@@ -25,17 +25,27 @@ public:
 	~Service();
 	Service(const Service &) = delete;
 
-	/// Serves until stop(); says why it ended by itself: empty where it was asked to, or nobody was left.
-	std::string run();
+	/// How serving came to its end: without a problem where it was asked to, or nobody was left.
+	struct End {
+		std::string problem;
+		bool fault = false; ///< it did work before: starting it anew may help
+	};
+	/// Serves until stop(), or until it cannot go on by itself.
+	End run();
 	/// Thread-safe, and safe in a signal handler's thread.
 	void stop();
+	Realtime &realtime() { return world_.realtime; }
 
 private:
 	void open();
+	void recover(const std::string &problem);
 	void beat(const std::stop_token &stop);
 	void removeFinished();
 	void admit(ipc::Socket socket);
 	bool mayLeave();
+	void fail(const std::string &problem, bool fault);
+	std::vector<std::shared_ptr<Guarded<Client::About>>> abouts();
+	void describeClients(nlohmann::json &list);
 
 	const Options options_;
 	ipc::Listener &listener_;

@@ -101,6 +101,23 @@ void Session::shown(const std::shared_ptr<const FrameContent> &content)
 	(*page_)->oldestHeldFrame.store(oldestHeld, std::memory_order_release);
 }
 
+void Session::displayed(const FrameContent &content, XrTime display)
+{
+	state_.update([&](State &state) {
+		Latencies &latencies = state.latencies;
+		if (content.frame <= latencies.newest) return;
+		latencies.newest = content.frame;
+		latencies.values[latencies.count++ % latencies.values.size()] = display - content.received;
+	});
+}
+
+Figure Session::latency()
+{
+	const Latencies latencies = [&] { return state_.lock()->latencies; }();
+	const size_t count = std::min<size_t>(latencies.count, latencies.values.size());
+	return figureOf({latencies.values.begin(), latencies.values.begin() + ptrdiff_t(count)});
+}
+
 void Session::take(const ipc::WaitFrame &message)
 {
 	const XrTime now = clock_.now();
@@ -120,7 +137,7 @@ void Session::take(const ipc::WaitFrame &message)
 void Session::take(const ipc::Submission &message)
 {
 	Afterwards afterwards;
-	std::shared_ptr<const FrameContent> content = contentOf(message), before;
+	std::shared_ptr<const FrameContent> content = contentOf(message, clock_.now()), before;
 	bool late = false;
 	state_.update([&](State &state) {
 		late = message.frame <= state.received;

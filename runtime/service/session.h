@@ -2,6 +2,7 @@
 #pragma once
 #include "runtime/base/clock.h"
 #include "runtime/base/guarded.h"
+#include "runtime/compositor/frame_record.h"
 #include "runtime/compositor/frame_source.h"
 #include "runtime/ipc/pages.h"
 #include "runtime/ipc/shared_memory.h"
@@ -27,10 +28,12 @@ public:
 			std::function<void(const std::string &)> onMalformed);
 	~Session() override;
 
+	/// The application finds its session lost; everything else goes on until close(). Thread-safe.
+	void hangUp() { channel_.hangUp(); }
 	/// Hangs up and ends the thread: from here on only the compositor's calls are allowed, and nothing is shown.
 	void close();
 
-	uint32_t number() const { return number_; }
+	uint32_t number() const override { return number_; }
 	/// xrBeginSession and xrEndSession. An application that waits for a frame when its session ends is told not to draw.
 	void setRunning(bool running);
 	bool running();
@@ -38,12 +41,20 @@ public:
 		uint64_t submitted = 0, shown = 0;
 	};
 	Count count();
+	/// From the arrival of a finished submission until it was first seen, of the newest ones.
+	Figure latency();
 
 	void wake(const Opportunity &opportunity) override;
 	std::shared_ptr<const FrameContent> content() override;
 	void shown(const std::shared_ptr<const FrameContent> &content) override;
+	void displayed(const FrameContent &content, XrTime display) override;
 
 private:
+	/// A ring of the newest ones.
+	struct Latencies {
+		std::array<XrDuration, 256> values{};
+		uint64_t count = 0, newest = 0; ///< newest: the submission that was seen last
+	};
 	struct State {
 		bool running = false;
 		bool waiting = false;      ///< a WaitFrame is unanswered
@@ -56,6 +67,7 @@ private:
 		XrTime answered = 0; ///< display time of the newest FrameReady
 		std::optional<Clock::Hold> hold;
 		XrTime holdSince = 0; ///< real
+		Latencies latencies;
 	};
 	/// What is left to do when the lock is gone: an answer to send, a hold to let go of.
 	struct Afterwards {

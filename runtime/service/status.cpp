@@ -16,9 +16,9 @@ const XrTime startedAt = realTime();
 /// Figures are for people and tests: a microsecond is exact enough, and 0.1 is not 0.10000000000000001.
 double rounded(double value) { return std::round(value * 1000) / 1000; }
 
-nlohmann::json describe(const Figure &figure) { return {{"median", rounded(figure.median)}, {"p99", rounded(figure.p99)}}; }
-
 } // namespace
+
+nlohmann::json describe(const Figure &figure) { return {{"median", rounded(figure.median)}, {"p99", rounded(figure.p99)}}; }
 
 nlohmann::json describeService(const Config &config, const FrameFigures &figures)
 {
@@ -29,10 +29,15 @@ nlohmann::json describeService(const Config &config, const FrameFigures &figures
 	status["frames"] = {{"shown", figures.shown},
 						{"perSecond", rounded(figures.perSecond)},
 						{"missed", figures.missed},
+						{"gaps", figures.gaps},
+						{"longestGapMs", rounded(figures.longestGap)},
+						{"withoutCamera", figures.withoutCamera},
 						{"cameraAgeMs", describe(figures.cameraAge)},
 						{"poseAgeMs", describe(figures.poseAge)},
 						{"composeMs", describe(figures.compose)},
 						{"cpuMsPerFrame", figures.shown ? rounded(figures.cpuSeconds * 1000 / double(figures.shown)) : 0.0}};
+	auto &stages = status["frames"]["stagesMs"];
+	for (size_t stage = 0; stage < frameStageNames.size(); ++stage) stages[frameStageNames[stage]] = describe(figures.stages[stage]);
 	return status;
 }
 

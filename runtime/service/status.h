@@ -10,6 +10,8 @@
 namespace arift
 {
 
+nlohmann::json describe(const Figure &figure);
+
 /// "service", "clock" and "frames".
 nlohmann::json describeService(const Config &config, const FrameFigures &figures);
 

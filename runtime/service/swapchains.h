@@ -19,7 +19,7 @@ constexpr uint64_t imageKey(uint32_t swapchain, uint32_t image) { return uint64_
 class Swapchains
 {
 public:
-	explicit Swapchains(Compositor &compositor) : compositor_(&compositor) {}
+	explicit Swapchains(std::shared_ptr<Compositor> compositor) : compositor_(std::move(compositor)) {}
 	/// Takes every image away from the compositor.
 	~Swapchains();
 	Swapchains(const Swapchains &) = delete;
@@ -45,7 +45,7 @@ private:
 		SwapchainShape shape;
 		uint64_t bytes = 0;
 	};
-	Compositor *compositor_;
+	const std::shared_ptr<Compositor> compositor_;
 	Guarded<std::map<uint32_t, Swapchain>> swapchains_;
 	Guarded<std::map<uint32_t, SwapchainShape>> destroyed_; ///< the last ones
 };

@@ -3,6 +3,7 @@
 #include "runtime/ipc/request.h"
 #include "runtime/service/build.h"
 #include "runtime/service/decode.h"
+#include "runtime/service/device_threads.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -12,12 +13,9 @@ namespace arift
 namespace
 {
 
-bool wantsWindow(const Config &config)
-{
-	return config.target == TargetKind::window || (config.target == TargetKind::automatic && !windowExtensions().empty());
-}
-
-std::vector<const char *> extensionsFor(bool window) { return window ? windowExtensions() : std::vector<const char *>{}; }
+/// A composition that has lasted so long (real time) counts as good; one that has failed so often in a row is given up.
+constexpr XrDuration lasting = 10 * second;
+constexpr int mostFailures = 8;
 
 XrFovf fovOf(const Rig &rig, Eye eye)
 {
@@ -67,75 +65,108 @@ void setViews(ipc::ViewTable &views, const Config &config, const Rig &rig)
 	views.stageBounds = {2, 2};
 }
 
-Pacer::Settings pacingOf(const Rig &rig)
-{
-	return {.period = fromSeconds(1 / rig.timing.refreshRate),
-			.vblankToDisplay = rig.timing.lineDelay((rig.lens.panel().height - 1) / 2.0)};
-}
-
-std::unique_ptr<Target> makeTarget(const Config &config, bool window, gpu::Device &device, Clock &clock, const Rig &rig)
-{
-	const Pacer::Settings pacing = pacingOf(rig);
-	if (window) {
-		try {
-			return makeWindowTarget(device, clock, pacing, {rig.lens.panel().width, rig.lens.panel().height});
-		} catch (const std::runtime_error &problem) {
-			if (config.target == TargetKind::window) throw;
-			log::warning("no window: {}", problem.what());
-		}
-	}
-	return makeOffscreenTarget(clock, pacing.period);
-}
-
 } // namespace
 
 System::System(World &world)
-	: config_(world.config),
-	  window_(wantsWindow(config_)),
-	  device_(extensionsFor(window_)),
+	: world_(world),
+	  config_(world.config),
 	  rig_(rigFor(config_)),
+	  composition_(makeComposition(false)),
 	  driver_(driverFor(config_, rig_, world.clock))
 {
-	identify(world);
-	// Pipelines take a second on a software renderer; Hello is answered in the meantime.
-	renderer_ = std::make_unique<PanelRenderer>(device_, rig_);
+	const auto first = *composition_.lock();
+	identify(first->device().identity());
+	first->makeRenderer(); // pipelines take a second on a software renderer; Hello is answered in the meantime
 	// Held until every thread that sleeps on the clock has its own hold: a stepped world begins as a whole.
 	const Clock::Hold hold(world.clock);
 	headset_ = std::make_unique<Headset>(rig_, *driver_, world.clock, *world.poses, std::array{&feeds_[0], &feeds_[1]},
-										 renderer_->frameAllocator());
-	auto target = makeTarget(config_, window_, device_, world.clock, rig_);
-	log::info("{} with rig \"{}\" on {}, {}", driver_->name(), rig_.name, device_.identity().name, target->name());
+										 allocatorOf([this] { return *composition_.lock(); }), realtimeFor("tracker"));
+	log::info("{} with rig \"{}\"", driver_->name(), rig_.name);
+	compose(first);
+}
+
+System::~System()
+{
+	world_.opened.update([](Opened &opened) {
+		opened.device.reset();
+		opened.compositor.reset();
+		opened.describeHeadset = {};
+	});
+	(*composition_.lock())->stop();
+}
+
+std::shared_ptr<Composition> System::makeComposition(bool again)
+{
+	return std::make_shared<Composition>(Composition::Purpose{config_, rig_, wantsWindow(config_), again});
+}
+
+/// A software renderer computes for many milliseconds on every processor: before everything else, nothing else would be done.
+std::function<void()> System::realtimeFor(const char *thread)
+{
+	const auto composition = *composition_.lock();
+	if (composition->device().identity().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU) return {};
+	return [this, thread] { world_.realtime.askFor(thread); };
+}
+
+void System::identify(const gpu::DeviceIdentity &gpu)
+{
+	world_.views.update([&](ipc::ViewTable &views) { setViews(views, config_, rig_); });
+	world_.opened.update([&](Opened &opened) {
+		opened.stage = Stage::identified;
+		opened.welcome = welcomeOf(config_, rig_, *driver_, gpu);
+	});
+}
+
+void System::compose(std::shared_ptr<Composition> composition)
+{
 	CameraFeed *const right = &feeds_[rig_.cameras.size() == 1 ? 0 : 1]; // the only camera's images and timing are those of both eyes
-	const Surroundings surroundings{world.clock, rig_, PoseHistory(*world.poses), *world.system, {&feeds_[0], right}};
-	compositor_ =
-		std::make_unique<Compositor>(surroundings, Pacer(pacingOf(rig_), world.clock.now()), makePanel(*renderer_, std::move(target)));
-	compositor_->setPassthroughDistance(config_.passthroughDistance);
-	world.opened.update([&](Opened &opened) {
+	composition->start({world_.clock,
+						rig_,
+						PoseHistory(*world_.poses),
+						*world_.system,
+						{&feeds_[0], right},
+						world_.trace.get(),
+						realtimeFor("compositor")});
+	composedSince_ = realTime();
+	*composition_.lock() = composition;
+	world_.opened.update([&](Opened &opened) {
 		opened.stage = Stage::ready;
-		opened.compositor = compositor_.get();
+		opened.device = {composition, &composition->device()};
+		opened.compositor = {composition, composition->compositor()};
 		opened.describeHeadset = [this](nlohmann::json &status) { describe(status); };
 	});
 }
 
-System::~System() = default;
-
-void System::identify(World &world)
+void System::recompose(const std::string &problem, const std::stop_token &stop)
 {
-	world.views.update([&](ipc::ViewTable &views) { setViews(views, config_, rig_); });
-	world.opened.update([&](Opened &opened) {
-		opened.stage = Stage::identified;
-		opened.welcome = welcomeOf(config_, rig_, *driver_, device_.identity());
-		opened.device = &device_;
-	});
+	log::error("no images can be made: {}; GPU and compositor are opened anew", problem);
+	const auto clock = makeRealClock(); // the system's own may be a stepped one, which waits for the compositor
+	BackOff backOff;
+	if (realTime() - composedSince_ > lasting) failures_ = 0;
+	for (std::string last = problem; !stop.stop_requested();) {
+		if (++failures_ > mostFailures) throw std::runtime_error(fmt::format("given up after {} attempts: {}", mostFailures, last));
+		if (failures_ > 1 && !clock->sleepUntil(realTime() + backOff.next(), stop)) return;
+		try {
+			auto composition = makeComposition(true);
+			composition->makeRenderer();
+			compose(std::move(composition));
+			log::info("images are made again");
+			return;
+		} catch (const std::exception &next) {
+			last = next.what();
+			log::error("no images can be made: {}", last);
+		}
+	}
 }
 
 void System::describe(nlohmann::json &status)
 {
+	const auto composition = *composition_.lock();
 	status["headset"] = {{"name", driver_->name()},
 						 {"driver", config_.driver},
 						 {"rig", rig_.name},
-						 {"gpu", device_.identity().name},
-						 {"validationMessages", device_.validationMessages()}};
+						 {"gpu", composition->device().identity().name},
+						 {"validationMessages", composition->device().validationMessages()}};
 	describeDevices(status, headset_->cameras(), headset_->tracker());
 }
 

@@ -1,6 +1,6 @@
 // What the service opens: GPU, Rig, devices, compositor; in the order in which one needs the other, so that they close the other way round.
 #pragma once
-#include "runtime/compositor/compositor.h"
+#include "runtime/service/composition.h"
 #include "runtime/service/headset.h"
 #include "runtime/service/world.h"
 
@@ -15,22 +15,26 @@ public:
 	System(const System &) = delete;
 	~System();
 
-	/// Where it can go on no longer by itself.
-	std::optional<Compositor::End> ended() { return compositor_->ended(); }
+	/// Makes GPU device and compositor anew after the compositor has ended with `problem`, until that succeeds or stop is requested; less
+	/// and less often. Devices and head motion go on meanwhile. Throws std::runtime_error where it has failed too often in a row.
+	void recompose(const std::string &problem, const std::stop_token &stop);
 
 private:
-	void identify(World &world);
+	void identify(const gpu::DeviceIdentity &gpu);
+	void compose(std::shared_ptr<Composition> composition);
+	std::shared_ptr<Composition> makeComposition(bool again);
+	std::function<void()> realtimeFor(const char *thread);
 	void describe(nlohmann::json &status);
 
+	World &world_;
 	const Config &config_;
-	const bool window_;
-	gpu::Device device_;
 	const Rig rig_;
+	Guarded<std::shared_ptr<Composition>> composition_; ///< the current one
+	XrTime composedSince_ = 0;                          ///< real
+	int failures_ = 0;                                  ///< compositions in a row that did not last
 	std::unique_ptr<Driver> driver_;
-	std::unique_ptr<PanelRenderer> renderer_;
 	std::array<CameraFeed, 2> feeds_;
 	std::unique_ptr<Headset> headset_;
-	std::unique_ptr<Compositor> compositor_;
 };
 
 } // namespace arift

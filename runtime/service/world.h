@@ -2,13 +2,16 @@
 #pragma once
 #include "runtime/base/clock.h"
 #include "runtime/base/guarded.h"
+#include "runtime/base/trace.h"
 #include "runtime/gpu/device.h"
 #include "runtime/ipc/messages.h"
 #include "runtime/ipc/shared_memory.h"
 #include "runtime/motion/pose_history.h"
 #include "runtime/service/applications.h"
 #include "runtime/service/config.h"
+#include "runtime/service/realtime.h"
 #include <functional>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
@@ -46,10 +49,12 @@ enum class Stage {
 
 struct Opened {
 	Stage stage = Stage::opening;
-	std::string problem;              ///< failed: one sentence
-	ipc::Welcome welcome;             ///< from identified on
-	gpu::Device *device = nullptr;    ///< from identified on
-	Compositor *compositor = nullptr; ///< from ready on
+	std::string problem;  ///< failed: one sentence
+	bool fault = false;   ///< failed: after it has been ready
+	ipc::Welcome welcome; ///< from identified on
+	/// When ready. Another pair takes their place when the GPU was lost: identified until it is there.
+	std::shared_ptr<gpu::Device> device;
+	std::shared_ptr<Compositor> compositor;
 	/// From ready on: headset, cameras and tracker as `arift status` shows them.
 	std::function<void(nlohmann::json &)> describeHeadset;
 };
@@ -63,6 +68,8 @@ struct World {
 	Views views{*system};
 	Applications applications;
 	Guarded<Opened> opened{};
+	std::unique_ptr<Trace> trace; ///< null: none is wanted
+	Realtime realtime;
 	std::function<void()> requestStop;
 	/// One line per client for `arift status`.
 	std::function<void(nlohmann::json &)> describeClients;

@@ -18,6 +18,8 @@ void status(const StatusOptions &options);
 void screenshot(const std::string &file, bool eyes);
 void recenter();
 void set(const std::string &name, double value);
+/// The cameras alone, or holograms again.
+void showRawPassthrough(bool raw);
 void stop();
 
 /// active_runtime.json and active_runtime.x86_64.json in openxr/1 of the user's configuration, or of /etc/xdg for everybody. What was there

@@ -53,6 +53,10 @@ void addSettings(CLI::App &app)
 {
 	app.add_subcommand("recenter", "straight ahead is where the head looks now")->callback([] { tools::recenter(); });
 	app.add_subcommand("stop", "end the service")->callback([] { tools::stop(); });
+	auto *passthrough = app.add_subcommand("passthrough", "the cameras alone (raw), or with holograms");
+	auto what = std::make_shared<std::string>();
+	passthrough->add_option("WHAT", *what, "raw or holograms")->required()->check(CLI::IsMember({"raw", "holograms"}));
+	passthrough->callback([what] { tools::showRawPassthrough(*what == "raw"); });
 	auto *command = app.add_subcommand("set", "change a setting of the running service");
 	auto name = std::make_shared<std::string>();
 	auto value = std::make_shared<double>(0);

@@ -35,6 +35,13 @@ void print(const nlohmann::json &status)
 							 frames["perSecond"].get<double>(), frames["missed"].get<uint64_t>(), frames["cpuMsPerFrame"].get<double>());
 	std::cout << fmt::format("          camera age {}, pose age {}, composing {}\n", figure(frames["cameraAgeMs"]),
 							 figure(frames["poseAgeMs"]), figure(frames["composeMs"]));
+	std::cout << fmt::format("          {} gaps, the longest between two images {:.1f} ms, {} images without a camera{}\n",
+							 frames["gaps"].get<uint64_t>(), frames["longestGapMs"].get<double>(), frames["withoutCamera"].get<uint64_t>(),
+							 status["passthrough"]["raw"].get<bool>() ? "; raw passthrough: no holograms" : "");
+	std::string stages;
+	for (const char *stage : {"wake", "choose", "plan", "upload", "record", "draw", "present"}) // in their order in time
+		stages += fmt::format(" {} {:.1f}", stage, frames["stagesMs"][stage]["median"].get<double>());
+	std::cout << fmt::format("          of that, in ms:{}\n", stages);
 	for (const auto &camera : status["cameras"])
 		std::cout << fmt::format("camera    {}: {:.1f} per second, {} received, {} dropped, {} malformed\n",
 								 camera["name"].get<std::string>(), camera["frameRate"].get<double>(), camera["received"].get<uint64_t>(),
@@ -42,9 +49,9 @@ void print(const nlohmann::json &status)
 	std::cout << fmt::format("tracker   {}: {:.0f} samples per second, {} lost, {} malformed reports\n", tracker["name"].get<std::string>(),
 							 tracker["rate"].get<double>(), tracker["lost"].get<uint64_t>(), tracker["malformed"].get<uint64_t>());
 	for (const auto &client : status["clients"])
-		std::cout << fmt::format("client    {} (pid {}): {}, {} submitted, {} shown\n", client["name"].get<std::string>(),
-								 client["pid"].get<int>(), client["state"].get<std::string>(), client["submitted"].get<uint64_t>(),
-								 client["shown"].get<uint64_t>());
+		std::cout << fmt::format("client    {} (pid {}): {}, {} submitted, {} shown, seen {} after they came\n",
+								 client["name"].get<std::string>(), client["pid"].get<int>(), client["state"].get<std::string>(),
+								 client["submitted"].get<uint64_t>(), client["shown"].get<uint64_t>(), figure(client["latencyMs"]));
 }
 
 } // namespace
@@ -91,6 +98,14 @@ void screenshot(const std::string &file, bool eyes)
 void recenter() { Monitor().ask<ipc::Done>(ipc::Recenter{}); }
 
 void stop() { Monitor().ask<ipc::Done>(ipc::ShutDown{}); }
+
+void showRawPassthrough(bool raw)
+{
+	ipc::SetSetting request;
+	request.setting = ipc::Setting::rawPassthrough;
+	request.value = raw ? 1 : 0;
+	Monitor().ask<ipc::Done>(request);
+}
 
 void set(const std::string &name, double value)
 {

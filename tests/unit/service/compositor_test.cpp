@@ -143,6 +143,26 @@ TEST_F(CompositorTest, ApplicationsAreWokenForTheImageAfter)
 	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND);
 }
 
+TEST_F(CompositorTest, RawPassthroughShowsNoLayerAndApplicationsGoOn)
+{
+	compositor_->addImage(5, VkImage(1), {}, nullptr);
+	auto source = std::make_shared<FakeSource>(5);
+	compositor_->addSource(source);
+	run(3);
+	ASSERT_FALSE(drawn().back().inputs.layers.empty());
+	compositor_->setRawPassthrough(true);
+	run(2);
+	EXPECT_TRUE(compositor_->rawPassthrough());
+	EXPECT_TRUE(drawn().back().inputs.layers.empty());
+	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND) << "nothing hides the world";
+	const size_t wakes = source->wakes.lock()->size();
+	run(3);
+	EXPECT_GE(source->wakes.lock()->size(), wakes + 2);
+	compositor_->setRawPassthrough(false);
+	run(2);
+	EXPECT_FALSE(drawn().back().inputs.layers.empty());
+}
+
 TEST_F(CompositorTest, ALayerWhoseImageIsGoneIsNotDrawn)
 {
 	auto owner = std::make_shared<int>(1);
@@ -192,6 +212,36 @@ TEST(FrameRecord, CountsRefreshesWithoutAnImage)
 	EXPECT_EQ(figures.shown, 5u);
 	EXPECT_EQ(figures.missed, 2u);
 	EXPECT_NEAR(figures.perSecond, 4 / (6 * inSeconds(period)), 1e-9);
+}
+
+TEST(FrameRecord, AGapIsMoreThanOneAndAHalfPeriodsAndDarknessIsAnEyeWithoutACamera)
+{
+	FrameRecord record;
+	constexpr std::array<std::optional<XrDuration>, 2> both{millisecond, millisecond}, one{millisecond, std::nullopt};
+	for (const double refresh : {0.0, 1.0, 2.4, 3.0, 4.6, 7.6})
+		record.add({.displayTime = second + XrTime(refresh * double(period)), .period = period, .cameraAge = refresh == 3 ? one : both});
+	const FrameFigures figures = record.figures();
+	EXPECT_EQ(figures.gaps, 2u) << "1.6 and 3 periods; 1.4 is none";
+	EXPECT_NEAR(figures.longestGap, 3 * double(period) * 1e-6, 1e-5);
+	EXPECT_EQ(figures.withoutCamera, 1u);
+	record.reset();
+	EXPECT_EQ(record.figures().gaps, 0u);
+	EXPECT_EQ(record.figures().withoutCamera, 0u);
+}
+
+TEST(FrameRecord, StagesHaveFiguresOfTheirOwn)
+{
+	FrameRecord record;
+	for (int i = 1; i <= 100; ++i) {
+		ShownFrame frame{.displayTime = i * period, .period = period};
+		for (size_t stage = 0; stage < frame.stages.size(); ++stage) frame.stages[stage] = XrDuration(stage + 1) * i * millisecond;
+		record.add(frame);
+	}
+	const FrameFigures figures = record.figures();
+	for (size_t stage = 0; stage < figures.stages.size(); ++stage) {
+		EXPECT_DOUBLE_EQ(figures.stages[stage].median, 50.0 * double(stage + 1)) << frameStageNames[stage];
+		EXPECT_DOUBLE_EQ(figures.stages[stage].p99, 99.0 * double(stage + 1)) << frameStageNames[stage];
+	}
 }
 
 TEST(FrameRecord, MediansAndNinetyNinthPercentile)

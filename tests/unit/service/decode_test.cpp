@@ -165,6 +165,6 @@ TEST(DecodeRequest, ValuesOutOfRangeAreRefused)
 	EXPECT_TRUE(refused([](auto &s) { s.spec.samples = 3; }));
 	EXPECT_TRUE(refused([](auto &s) { s.spec.arrayLayers = 0; }));
 	EXPECT_FALSE(acceptedRequest(ipc::SetSetting{.value = std::nanf("")}));
-	EXPECT_FALSE(acceptedRequest(ipc::SetSetting{.setting = ipc::Setting(2)}));
+	EXPECT_FALSE(acceptedRequest(ipc::SetSetting{.setting = ipc::Setting(3)}));
 	EXPECT_FALSE(acceptedRequest(ipc::Screenshot{.kind = ipc::PictureKind(2)}));
 }
