@@ -176,6 +176,7 @@ void FakeService::serveFrames(ipc::Socket &socket, const std::stop_token &stop)
 		record_.update([&](Record &record) { record.frameMessages.push_back(received.header()->type); });
 		if (const auto wait = received.as<ipc::WaitFrame>()) {
 			record_.update([&](Record &record) { record.waits.push_back(wait->header.sequence); });
+			std::this_thread::sleep_for(std::chrono::nanoseconds(pace_.load()));
 			const XrTime now = realTime();
 			socket.send(
 				ipc::FrameReady{.predictedDisplayTime = now + 30 * millisecond, .predictedDisplayPeriod = 16'690'000, .shouldRender = 1},

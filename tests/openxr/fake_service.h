@@ -34,6 +34,8 @@ public:
 	void send(const ipc::Event &event);
 	/// Whether a submission is let go of as soon as the next one comes, as when every refresh shows the newest.
 	void setShowing(bool showing) { showing_ = showing; }
+	/// How long xrWaitFrame takes.
+	void setPace(XrDuration pace) { pace_ = pace; }
 	void stopHeart() { beating_ = false; }
 	/// Sessions made from now on have a frame channel that is full and is not read.
 	void stopReadingFrames() { readingFrames_ = false; }
@@ -77,6 +79,7 @@ private:
 	ipc::SharedPage<ipc::ClientPage> client_{"fake-client"};
 	PoseWriter writer_{*ring_};
 	std::atomic<bool> beating_{true}, showing_{true}, readingFrames_{true};
+	std::atomic<XrDuration> pace_{0};
 	std::atomic<XrResult> refusal_{XR_SUCCESS};
 	std::optional<ipc::Socket> unread_; ///< the service's end of a frame channel
 	Guarded<Record> record_;
