@@ -7,8 +7,10 @@ namespace arift::openxr
 namespace
 {
 
-/// How often a wait for the service looks whether it still lives (real time).
-constexpr XrDuration lookAround = 100 * millisecond;
+/// How often a wait for the service, or for the application's own next frame, looks whether the service still lives (real time).
+constexpr XrDuration lookAround = 50 * millisecond;
+/// A process that dies closes its sockets one after the other (real time): the one for frames may be the first.
+constexpr XrDuration bothEnd = 20 * millisecond;
 /// How long the service may leave a frame channel unread that is full (real time).
 constexpr XrDuration sendLimit = second;
 
@@ -16,7 +18,7 @@ constexpr XrDuration sendLimit = second;
 
 void Session::loseFrames(const char *why)
 {
-	instance.service.noticeHangUp();
+	instance.service.noticeHangUp(bothEnd);
 	instance.requireAlive();
 	life_->lose();
 	throw Error(XR_ERROR_SESSION_LOST, "{}", why);
@@ -49,8 +51,10 @@ XrFrameState Session::waitFrame()
 	{
 		auto life = life_->lock();
 		life->requireRunning();
-		while (!life.waitFor({}, std::chrono::nanoseconds(lookAround), [](const Life &l) { return !l.facts.begun || l.order.mayWait(); }))
+		while (!life.waitFor({}, std::chrono::nanoseconds(lookAround), [](const Life &l) { return !l.facts.begun || l.order.mayWait(); })) {
+			instance.service.noticeHangUp();
 			requireAlive();
+		}
 		life->requireRunning();
 		life->order.startWait();
 	}

@@ -83,10 +83,11 @@ bool Service::isLost() const
 	return true;
 }
 
-void Service::noticeHangUp() const
+void Service::noticeHangUp(XrDuration within) const
 {
 	pollfd connection{.fd = requests_->socket().fd(), .events = 0, .revents = 0};
-	if (::poll(&connection, 1, 0) > 0 && (connection.revents & (POLLHUP | POLLERR))) lose("it has gone away");
+	const timespec limit{.tv_sec = time_t(within / second), .tv_nsec = long(within % second)};
+	if (::ppoll(&connection, 1, &limit, nullptr) > 0 && (connection.revents & (POLLHUP | POLLERR))) lose("it has gone away");
 }
 
 void Service::lose(const char *why) const

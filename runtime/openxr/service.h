@@ -55,8 +55,8 @@ public:
 	{
 		if (isLost()) throw Error(XR_ERROR_INSTANCE_LOST, "the connection to arift-service is lost");
 	}
-	/// One system call: whether the connection has ended.
-	void noticeHangUp() const;
+	/// One system call: sleeps at most so long (real time), until the connection ends, and notes whether it has.
+	void noticeHangUp(XrDuration within = 0) const;
 	/// Says once why, and lets every later call fail at once.
 	void lose(const char *why) const;
 

@@ -1,7 +1,6 @@
 #include "runtime/openxr/swapchain.h"
 #include <algorithm>
 #include <bit>
-#include <time.h>
 
 namespace arift::openxr
 {
@@ -42,12 +41,6 @@ gpu::ImageSpec specFor(const Session &session, const XrSwapchainCreateInfo &info
 	requireCreateInfo(info, session.instance.service.welcome());
 	if (!session.graphics()) throw Error(XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED, "a headless session has no swapchains");
 	return session.graphics()->specOf(info);
-}
-
-void sleepFor(XrDuration duration)
-{
-	const timespec time{.tv_sec = 0, .tv_nsec = long(duration)};
-	::nanosleep(&time, nullptr);
 }
 
 } // namespace
@@ -141,8 +134,8 @@ bool Swapchain::wait(XrDuration timeout)
 		if (unwanted) session.relinquish(*unwanted);
 		const XrTime now = realTime();
 		if (now >= end) return false;
+		session.instance.service.noticeHangUp(std::min(lookAgain, end - now));
 		session.requireAlive();
-		sleepFor(std::min(lookAgain, end - now));
 	}
 }
 

@@ -62,6 +62,16 @@ TEST(FrameThatNobodyTakes, EndsTheSubmitter)
 	EXPECT_TRUE(failures.lock().waitFor({}, std::chrono::nanoseconds(patience), [](int count) { return count == 1; }));
 }
 
+/// Whether a thread of this process sleeps in the kernel.
+bool sleeps(pid_t thread)
+{
+	std::ifstream file("/proc/self/task/" + std::to_string(thread) + "/stat");
+	std::string text;
+	std::getline(file, text);
+	const size_t name = text.rfind(") ");
+	return name != text.npos && text[name + 2] == 'S';
+}
+
 /// One waits in xrWaitFrame while the frame before is not begun. The channel shows the order: what was sent in between stands in between.
 TEST_F(FakeSession, AWaitInAnotherThreadBlocksUntilTheFrameIsBegun)
 {
@@ -72,14 +82,7 @@ TEST_F(FakeSession, AWaitInAnotherThreadBlocksUntilTheFrameIsBegun)
 		waiter = ::gettid();
 		running.waitFrame();
 	});
-	const auto sleeps = [&] {
-		std::ifstream file("/proc/self/task/" + std::to_string(waiter.load()) + "/stat");
-		std::string text;
-		std::getline(file, text);
-		const size_t name = text.rfind(") ");
-		return name != text.npos && text[name + 2] == 'S';
-	};
-	for (const XrTime end = realTime() + patience; waiter == 0 || !sleeps(); std::this_thread::yield())
+	for (const XrTime end = realTime() + patience; !sleeps(waiter); std::this_thread::yield())
 		ASSERT_LT(realTime(), end) << "the second wait does not block";
 	running.relinquish(0);
 	running.beginFrame();
@@ -140,6 +143,60 @@ TEST_F(FakeSession, PollingForTheImageThatIsShownGivesItUp)
 	images.acquire();
 	poll(millisecond);
 	EXPECT_EQ(service.record().relinquished, (std::vector<uint64_t>{1, 2}));
+}
+
+/// A thread that waits for the service when that dies is told at once, not when the heartbeat is missed.
+struct DyingService : FakeSession {
+	void expectTheEndOf(const std::function<void()> &wait)
+	{
+		const Rescue rescue(service);
+		std::atomic<pid_t> waiter{0};
+		XrTime ended = 0;
+		XrResult result = XR_SUCCESS;
+		std::jthread thread([&] {
+			waiter = ::gettid();
+			result = resultOf(wait);
+			ended = realTime();
+		});
+		for (const XrTime end = realTime() + patience; !sleeps(waiter); std::this_thread::yield())
+			ASSERT_LT(realTime(), end) << "it does not wait";
+		const XrTime died = realTime();
+		service.hangUp();
+		thread.join();
+		EXPECT_EQ(result, XR_ERROR_INSTANCE_LOST);
+		EXPECT_LT(ended - died, 100 * millisecond);
+	}
+};
+
+TEST_F(DyingService, EndsAFramesWait)
+{
+	Session &running = session();
+	service.stopAnswering();
+	expectTheEndOf([&] { running.waitFrame(); });
+}
+
+TEST_F(DyingService, EndsAWaitForTheFrameBeforeToBeBegun)
+{
+	Session &running = session();
+	running.waitFrame();
+	expectTheEndOf([&] { running.waitFrame(); });
+}
+
+TEST_F(DyingService, EndsAnImagesWait)
+{
+	service.client().oldestHeldFrame = 1;
+	service.system().timing.write({.displayPeriod = 10 * second}); // nothing is given up meanwhile
+	Swapchain &images = swapchain(session());
+	for (uint64_t frame = 1; frame <= 3; ++frame) images.noteSubmitted(draw(images), frame);
+	for (int i = 0; i < 3; ++i) images.acquire();
+	expectTheEndOf([&] { images.wait(XR_INFINITE_DURATION); });
+}
+
+TEST_F(DyingService, EndsARequest)
+{
+	Session &running = session();
+	service.stopAnswering();
+	expectTheEndOf([&] { swapchain(running); });
 }
 
 TEST_F(FakeSession, ALostDeviceEndsTheSession)

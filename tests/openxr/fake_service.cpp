@@ -124,7 +124,7 @@ void FakeService::serve(ipc::Socket &socket, const std::stop_token &stop)
 	ipc::Received received;
 	for (ipc::Transfer transfer = ipc::Transfer::timeout; transfer != ipc::Transfer::hungUp && !stop.stop_requested();) {
 		transfer = socket.receive(received, realTime() + second / 10);
-		if (transfer == ipc::Transfer::done) answer(socket, received);
+		if (transfer == ipc::Transfer::done && answering_) answer(socket, received);
 	}
 }
 
@@ -172,7 +172,7 @@ void FakeService::serveFrames(ipc::Socket &socket, const std::stop_token &stop)
 	ipc::Received received;
 	for (ipc::Transfer transfer = ipc::Transfer::timeout; transfer != ipc::Transfer::hungUp && !stop.stop_requested();) {
 		transfer = socket.receive(received, realTime() + second / 10);
-		if (transfer != ipc::Transfer::done) continue;
+		if (transfer != ipc::Transfer::done || !answering_) continue;
 		record_.update([&](Record &record) { record.frameMessages.push_back(received.header()->type); });
 		if (const auto wait = received.as<ipc::WaitFrame>()) {
 			record_.update([&](Record &record) { record.waits.push_back(wait->header.sequence); });

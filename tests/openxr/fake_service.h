@@ -36,6 +36,8 @@ public:
 	void setShowing(bool showing) { showing_ = showing; }
 	/// How long xrWaitFrame takes.
 	void setPace(XrDuration pace) { pace_ = pace; }
+	/// Nothing is answered from now on.
+	void stopAnswering() { answering_ = false; }
 	void stopHeart() { beating_ = false; }
 	/// Sessions made from now on have a frame channel that is full and is not read.
 	void stopReadingFrames() { readingFrames_ = false; }
@@ -78,7 +80,7 @@ private:
 	ipc::SharedPage<PoseRing> ring_{"fake-poses"};
 	ipc::SharedPage<ipc::ClientPage> client_{"fake-client"};
 	PoseWriter writer_{*ring_};
-	std::atomic<bool> beating_{true}, showing_{true}, readingFrames_{true};
+	std::atomic<bool> beating_{true}, showing_{true}, readingFrames_{true}, answering_{true};
 	std::atomic<XrDuration> pace_{0};
 	std::atomic<XrResult> refusal_{XR_SUCCESS};
 	std::optional<ipc::Socket> unread_; ///< the service's end of a frame channel
