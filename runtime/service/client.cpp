@@ -12,6 +12,9 @@ namespace
 
 std::atomic<uint32_t> nextSession{1};
 
+/// A library says hello as soon as it is connected (real time): who does not keeps a place from others.
+constexpr XrDuration helloLimit = 5 * second;
+
 ipc::Header headerOf(const Request &request)
 {
 	return std::visit([](const auto &message) { return message.header; }, request);
@@ -45,9 +48,12 @@ void Client::refuse(const ipc::Header &request, XrResult result, const std::stri
 void Client::serve(const std::stop_token &stop)
 {
 	ipc::Received received;
+	const XrTime connected = realTime();
 	try {
 		while (!stop.stop_requested()) {
 			const ipc::Transfer transfer = socket_.receive(received, realTime() + second);
+			if (!greeted_ && transfer == ipc::Transfer::timeout && realTime() - connected > helloLimit)
+				throw Malformed("no hello within {} s", helloLimit / second);
 			if (transfer == ipc::Transfer::hungUp) break;
 			if (transfer == ipc::Transfer::malformed) throw Malformed("message longer than {} bytes", ipc::maxMessageSize);
 			if (transfer == ipc::Transfer::done) answer(decodeRequest(received));
