@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <malloc.h>
 
 namespace
 {
@@ -74,8 +75,18 @@ private:
 	std::jthread thread_;
 };
 
+/// Clients come and go, each with threads of its own and now and then a picture of megabytes: what they leave goes back to the system
+/// instead of lying about in one heap per thread.
+void keepMemoryTogether()
+{
+	::mallopt(M_ARENA_MAX, 4);
+	::mallopt(M_MMAP_THRESHOLD, 1 << 20);
+	::mallopt(M_TRIM_THRESHOLD, 1 << 20);
+}
+
 int serve(const Arguments &arguments)
 {
+	keepMemoryTogether();
 	const sigset_t signals = SignalThread::blockSignals(); // before any thread exists: all inherit it
 	const auto lock = ipc::takeServiceLock(ipc::lockPath());
 	if (!lock) {

@@ -1,6 +1,7 @@
 // arift: the command line. Parses and hands over; each command is a function in commands.h.
 #include "tools/arift/commands.h"
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <iostream>
 
 namespace
@@ -71,6 +72,7 @@ void addSettings(CLI::App &app)
 
 int main(int argc, char **argv)
 {
+	std::signal(SIGXFSZ, SIG_IGN); // a file that may not grow is an error of who writes it
 	CLI::App app("ARift: augmented reality on the camera-modified Oculus Rift DK1.", "arift");
 	app.require_subcommand(1);
 	app.set_version_flag("--version", ARIFT_VERSION);

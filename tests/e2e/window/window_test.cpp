@@ -1,6 +1,7 @@
 // The panel in a window: what an X client sees there is what the service says it shows.
 #include "tests/e2e/common/child_process.h"
 #include "tests/e2e/common/private_tree.h"
+#include "tests/e2e/common/x_server.h"
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -77,13 +78,9 @@ class Window : public testing::Test
 protected:
 	void SetUp() override
 	{
-		if (::access("/usr/bin/Xvfb", X_OK) != 0) GTEST_SKIP() << "there is no Xvfb (package xvfb)";
-		const auto log = tree_.root() / "display-number";
-		server_.emplace(
-			std::vector<std::string>{"/usr/bin/Xvfb", "-displayfd", "1", "-screen", "0", "1280x800x24", "-noreset", "-nolisten", "tcp"},
-			tree_.environment(), log);
-		ASSERT_TRUE(await(20s, [&] { return std::isdigit(static_cast<unsigned char>(server_->output()[0])); })) << server_->output();
-		display_ = ":" + std::to_string(std::atoi(server_->output().c_str()));
+		if (!XServer::isInstalled()) GTEST_SKIP() << "there is no Xvfb (package xvfb)";
+		server_.emplace(tree_);
+		display_ = server_->display();
 	}
 
 	std::map<std::string, std::string> environment() const
@@ -106,7 +103,7 @@ protected:
 	}
 
 	PrivateTree tree_;
-	std::optional<ChildProcess> server_;
+	std::optional<XServer> server_;
 	std::string display_;
 	int commands_ = 0;
 };

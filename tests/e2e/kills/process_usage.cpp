@@ -1,0 +1,41 @@
+#include "tests/e2e/kills/process_usage.h"
+#include "tests/e2e/common/command.h"
+#include <algorithm>
+#include <filesystem>
+#include <fmt/core.h>
+#include <fstream>
+#include <unistd.h>
+
+namespace arift::e2e
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+size_t entriesOf(const fs::path &folder)
+{
+	std::error_code gone;
+	return size_t(std::distance(fs::directory_iterator(folder, gone), fs::directory_iterator()));
+}
+
+} // namespace
+
+ProcessUsage usageOf(int pid)
+{
+	const fs::path process = fs::path("/proc") / std::to_string(pid);
+	const std::string maps = contentOf(process / "maps");
+	size_t total = 0, resident = 0;
+	std::ifstream(process / "statm") >> total >> resident;
+	return {entriesOf(process / "fd"), size_t(std::ranges::count(maps, '\n')), entriesOf(process / "task"),
+			double(resident) * double(::sysconf(_SC_PAGESIZE)) / (1 << 20)};
+}
+
+std::string describe(const ProcessUsage &usage)
+{
+	return fmt::format("{} descriptors, {} mappings, {} threads, {:.1f} MiB resident", usage.descriptors, usage.mappings, usage.threads,
+					   usage.residentMiB);
+}
+
+} // namespace arift::e2e

@@ -1,0 +1,18 @@
+// What a process has of the system's, as /proc tells it.
+#pragma once
+#include <cstddef>
+#include <string>
+
+namespace arift::e2e
+{
+
+struct ProcessUsage {
+	size_t descriptors = 0, mappings = 0, threads = 0;
+	double residentMiB = 0;
+};
+/// Zeros where there is no such process.
+ProcessUsage usageOf(int pid);
+/// For people.
+std::string describe(const ProcessUsage &usage);
+
+} // namespace arift::e2e
