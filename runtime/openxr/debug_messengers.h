@@ -18,15 +18,10 @@ public:
 	{
 		std::erase_if(*all_.lock(), [&](const Messenger &other) { return other.key == messenger; });
 	}
-	/// To each that asked for such messages.
+	/// To each that asked for such messages: with the names that the application gave its objects, and the labels of those that are
+	/// sessions.
 	void send(XrDebugUtilsMessageSeverityFlagsEXT severity, XrDebugUtilsMessageTypeFlagsEXT types,
-			  const XrDebugUtilsMessengerCallbackDataEXT &data)
-	{
-		const std::vector<Messenger> now = *all_.lock();
-		for (const auto &[key, info] : now)
-			if ((info.messageSeverities & severity) && (info.messageTypes & types))
-				info.userCallback(severity, types, &data, info.userData);
-	}
+			  const XrDebugUtilsMessengerCallbackDataEXT &data);
 
 private:
 	struct Messenger {

@@ -40,6 +40,19 @@ void HandleTable::refuse(uint64_t handle, XrObjectType wanted) const
 	throw Error(XR_ERROR_HANDLE_INVALID, "{:#x} is a handle of XrObjectType {}, not {}", handle, int(slots_[index].type), int(wanted));
 }
 
+XrObjectType HandleTable::typeOf(uint64_t handle) const
+{
+	const uint32_t index = indexOf(handle);
+	const bool valid = handle != 0 && index < slotCount && slots_[index].handle.load(std::memory_order_acquire) == handle;
+	return valid ? slots_[index].type : XR_OBJECT_TYPE_UNKNOWN;
+}
+
+Object *HandleTable::find(uint64_t handle, XrObjectType type) const
+{
+	const XrObjectType found = typeOf(handle);
+	return found != XR_OBJECT_TYPE_UNKNOWN && (type == found || type == XR_OBJECT_TYPE_UNKNOWN) ? slots_[indexOf(handle)].object : nullptr;
+}
+
 Object *HandleTable::findRoot(uint64_t handle, XrObjectType type) const
 {
 	uint32_t index = indexOf(handle);

@@ -2,12 +2,14 @@
 // A handle is generation and index of a slot: null, stale and foreign handles are told apart without touching freed memory. Looking one up
 // takes no lock. Destroying a handle destroys its children first, as the specification's "Object Handle Types" asks.
 #pragma once
+#include "runtime/base/guarded.h"
 #include "runtime/openxr/error.h"
 #include <array>
 #include <atomic>
 #include <concepts>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,9 @@ public:
 	/// Throws XR_ERROR_INSTANCE_LOST or XR_ERROR_SESSION_LOST where nothing can be done with the object any more but destroying it.
 	virtual void requireAlive() const = 0;
 	uint64_t handleValue() const { return handle_; }
+
+	/// What the application calls it in messages (xrSetDebugUtilsObjectNameEXT); empty: nothing.
+	Guarded<std::string> debugName;
 
 private:
 	friend class HandleTable;
@@ -65,6 +70,10 @@ public:
 	/// What `handle` and all its ancestors lie below; null for what is no handle now, and where it is no T.
 	template <HandleObject T> T *rootOf(uint64_t handle) const { return static_cast<T *>(findRoot(handle, HandleOf<T>::objectType)); }
 
+	/// The object of a handle; null where it is none, or not of that type. XR_OBJECT_TYPE_UNKNOWN: of any.
+	Object *find(uint64_t handle, XrObjectType type) const;
+	/// XR_OBJECT_TYPE_UNKNOWN for what is no handle now.
+	XrObjectType typeOf(uint64_t handle) const;
 	/// Destroys the object and all below it, youngest generation first.
 	void destroy(const Object &object);
 	/// As destroy, but the objects are only forgotten: in a forked child their threads do not exist and their sockets are the parent's.

@@ -20,6 +20,9 @@ void say(const char *function, uint64_t handle, XrResult result, const char *tex
 	data.messageId = nameOf(result);
 	data.functionName = function;
 	data.message = text;
+	XrDebugUtilsObjectNameInfoEXT object{XR_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr, handles.typeOf(handle), handle, nullptr};
+	data.objectCount = object.objectType == XR_OBJECT_TYPE_UNKNOWN ? 0 : 1;
+	data.objects = &object;
 	if (Instance *instance = handles.rootOf<Instance>(handle))
 		instance->messengers.send(XR_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
 								  result == XR_ERROR_RUNTIME_FAILURE ? XR_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT

@@ -1,5 +1,6 @@
 // XrSession: its life cycle, its frames and what it shares with the service. OpenXR 1.1, chapters "Session" and "Rendering".
 #pragma once
+#include "runtime/openxr/debug_labels.h"
 #include "runtime/openxr/graphics.h"
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/session_life.h"
@@ -48,6 +49,7 @@ public:
 
 	Instance &instance;
 	ActionState actions;
+	DebugLabels labels;
 
 private:
 	/// The service's answer, and how much news it had written before it was asked.

@@ -26,7 +26,13 @@ struct DebugMessenger : testing::Test {
 		static XrBool32 XRAPI_CALL hear(XrDebugUtilsMessageSeverityFlagsEXT, XrDebugUtilsMessageTypeFlagsEXT,
 										const XrDebugUtilsMessengerCallbackDataEXT *data, void *user)
 		{
-			static_cast<Listener *>(user)->heard += std::string(data->functionName) + ": " + data->message + "\n";
+			auto &listener = *static_cast<Listener *>(user);
+			listener.heard += std::string(data->functionName) + ": " + data->message + "\n";
+			listener.names.clear();
+			listener.labels.clear();
+			for (uint32_t i = 0; i < data->objectCount; ++i)
+				listener.names.push_back(data->objects[i].objectName ? data->objects[i].objectName : "");
+			for (uint32_t i = 0; i < data->sessionLabelCount; ++i) listener.labels.push_back(data->sessionLabels[i].labelName);
 			return XR_FALSE;
 		}
 		/// A path that is none.
@@ -40,6 +46,7 @@ struct DebugMessenger : testing::Test {
 		const Application application{{"XR_EXT_debug_utils", "XR_MND_headless"}};
 		XrDebugUtilsMessengerEXT messenger = XR_NULL_HANDLE;
 		std::string heard;
+		std::vector<std::string> names, labels; ///< of the last message
 	};
 	static constexpr const char *ofBadPath = "xrStringToPath: \"/Bad\" is not a well-formed path\n";
 };
@@ -83,6 +90,84 @@ TEST_F(DebugMessenger, HearsWhatIsSubmittedToItsOwnInstance)
 	submit(XR_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT);
 	EXPECT_EQ(one.takeHeard(), "here: text\n");
 	EXPECT_EQ(other.takeHeard(), "");
+}
+
+/// What names and labels are told to: the application's one session, which is the object of every message.
+struct DebugAnnotation : DebugMessenger {
+	const Listener listener{XR_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT};
+	const XrSession session = listener.application.session();
+
+	XrDebugUtilsObjectNameInfoEXT named(const char *name) const
+	{
+		return {XR_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT, nullptr, XR_OBJECT_TYPE_SESSION, reinterpret_cast<uint64_t>(session), name};
+	}
+	XrResult setName(const XrDebugUtilsObjectNameInfoEXT &info) const
+	{
+		return listener.get<PFN_xrSetDebugUtilsObjectNameEXT>("xrSetDebugUtilsObjectNameEXT")(listener.application.instance, &info);
+	}
+	void begin(const char *name) const
+	{
+		label<PFN_xrSessionBeginDebugUtilsLabelRegionEXT>("xrSessionBeginDebugUtilsLabelRegionEXT", name);
+	}
+	void insert(const char *name) const { label<PFN_xrSessionInsertDebugUtilsLabelEXT>("xrSessionInsertDebugUtilsLabelEXT", name); }
+	void end() const
+	{
+		EXPECT_EQ(listener.get<PFN_xrSessionEndDebugUtilsLabelRegionEXT>("xrSessionEndDebugUtilsLabelRegionEXT")(session), XR_SUCCESS);
+	}
+	template <typename Pfn> void label(const char *function, const char *name) const
+	{
+		const XrDebugUtilsLabelEXT info{XR_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, name};
+		EXPECT_EQ(listener.get<Pfn>(function)(session, &info), XR_SUCCESS);
+	}
+	/// A message about the session, which its sender calls `name`.
+	void submit(const char *name) const
+	{
+		XrDebugUtilsObjectNameInfoEXT object = named(name);
+		XrDebugUtilsMessengerCallbackDataEXT data{
+			.type = XR_TYPE_DEBUG_UTILS_MESSENGER_CALLBACK_DATA_EXT, .messageId = "id", .functionName = "here", .message = "text"};
+		data.objectCount = 1;
+		data.objects = &object;
+		EXPECT_EQ(listener.get<PFN_xrSubmitDebugUtilsMessageEXT>("xrSubmitDebugUtilsMessageEXT")(
+					  listener.application.instance, XR_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+					  XR_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT, &data),
+				  XR_SUCCESS);
+	}
+	using Texts = std::vector<std::string>;
+};
+
+TEST_F(DebugAnnotation, MessagesCallObjectsByTheNamesThatTheApplicationGaveThem)
+{
+	submit("the sender's");
+	EXPECT_EQ(listener.names, Texts{"the sender's"});
+	ASSERT_EQ(setName(named("mine")), XR_SUCCESS);
+	submit("the sender's");
+	EXPECT_EQ(listener.names, Texts{"mine"});
+	ASSERT_EQ(setName(named("")), XR_SUCCESS);
+	submit(nullptr);
+	EXPECT_EQ(listener.names, Texts{""}) << "an empty name takes it back";
+	XrDebugUtilsObjectNameInfoEXT wrong = named("nobody");
+	wrong.objectType = XR_OBJECT_TYPE_SPACE;
+	EXPECT_EQ(setName(wrong), XR_ERROR_HANDLE_INVALID);
+}
+
+TEST_F(DebugAnnotation, MessagesSayWhatTheSessionIsDoingTheNewestFirst)
+{
+	insert("alone");
+	submit(nullptr);
+	EXPECT_EQ(listener.labels, Texts{"alone"});
+	begin("outer");
+	begin("inner");
+	insert("step");
+	submit(nullptr);
+	EXPECT_EQ(listener.labels, (Texts{"step", "inner", "outer"})) << "a region ends an individual label";
+	insert("next step");
+	end();
+	submit(nullptr);
+	EXPECT_EQ(listener.labels, Texts{"outer"});
+	end();
+	end();
+	submit(nullptr);
+	EXPECT_EQ(listener.labels, Texts{}) << "what did not begin does not end";
 }
 
 TEST_F(DebugMessenger, OneThatCannotBeMadeMakesNoInstance)

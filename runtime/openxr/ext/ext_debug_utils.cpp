@@ -5,9 +5,10 @@ namespace arift::openxr
 namespace
 {
 
-void requireLabel(const XrDebugUtilsLabelEXT &label)
+const char *nameIn(const XrDebugUtilsLabelEXT &label)
 {
 	if (!label.labelName) throw Error(XR_ERROR_VALIDATION_FAILURE, "labelName is null");
+	return label.labelName;
 }
 
 } // namespace
@@ -38,11 +39,13 @@ void submitDebugUtilsMessage(Instance &instance, XrDebugUtilsMessageSeverityFlag
 
 void setDebugUtilsObjectName(Instance &, const XrDebugUtilsObjectNameInfoEXT &info)
 {
-	if (info.objectHandle == 0) throw Error(XR_ERROR_HANDLE_INVALID, "objectHandle is XR_NULL_HANDLE");
+	Object *object = handles.find(info.objectHandle, info.objectType);
+	if (!object) throw Error(XR_ERROR_HANDLE_INVALID, "{:#x} is no handle of XrObjectType {}", info.objectHandle, int(info.objectType));
+	*object->debugName.lock() = info.objectName ? info.objectName : "";
 }
 
-void sessionBeginDebugUtilsLabelRegion(Session &, const XrDebugUtilsLabelEXT &label) { requireLabel(label); }
-void sessionEndDebugUtilsLabelRegion(Session &) {}
-void sessionInsertDebugUtilsLabel(Session &, const XrDebugUtilsLabelEXT &label) { requireLabel(label); }
+void sessionBeginDebugUtilsLabelRegion(Session &session, const XrDebugUtilsLabelEXT &label) { session.labels.begin(nameIn(label)); }
+void sessionEndDebugUtilsLabelRegion(Session &session) { session.labels.end(); }
+void sessionInsertDebugUtilsLabel(Session &session, const XrDebugUtilsLabelEXT &label) { session.labels.insert(nameIn(label)); }
 
 } // namespace arift::openxr

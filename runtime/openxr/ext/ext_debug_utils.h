@@ -1,4 +1,4 @@
-// XR_EXT_debug_utils: applications hear of their mistakes. The loader keeps names and labels itself; here they are accepted.
+// XR_EXT_debug_utils: applications hear of their mistakes, by the names that they gave their objects and what they said they were doing.
 #pragma once
 #include "runtime/openxr/session.h"
 
