@@ -78,9 +78,18 @@ bool Service::isLost() const
 		lose("it belongs to the process from which this one was forked");
 		return true;
 	}
-	if (coarseTime() - system_->heartbeat.load(std::memory_order_relaxed) <= silenceLimit) return false;
+	const XrTime now = coarseTime(), beat = system_->heartbeat.load(std::memory_order_relaxed);
+	if (now - beat <= silenceLimit || !isSilentAgain(beat, now)) return false;
 	lose("it shows no sign of life");
 	return true;
+}
+
+/// When the whole machine has stood still (a virtual one that was paused, a quota that was used up), whoever wakes first finds every beat
+/// old: the service is given the time to beat once more.
+bool Service::isSilentAgain(XrTime beat, XrTime now) const
+{
+	if (suspectedBeat_.exchange(beat, std::memory_order_relaxed) != beat) suspectedSince_.store(now, std::memory_order_relaxed);
+	return now - suspectedSince_.load(std::memory_order_relaxed) >= secondLook;
 }
 
 void Service::noticeHangUp(XrDuration within) const

@@ -17,6 +17,8 @@ class Service
 public:
 	/// A service that has not stirred for so long (real time) is lost.
 	static constexpr XrDuration silenceLimit = 2 * second;
+	/// … and neither within so long after somebody noticed: several beats.
+	static constexpr XrDuration secondLook = 300 * millisecond;
 	/// How long a request may take (real time). A software renderer allocates and clears images in it.
 	static constexpr XrDuration requestLimit = 5 * second;
 	/// The first session may come while the service is still opening its devices: its own reason comes before this limit.
@@ -62,6 +64,7 @@ public:
 
 private:
 	Service(const ipc::Hello &hello, ipc::Socket socket);
+	bool isSilentAgain(XrTime beat, XrTime now) const;
 	template <typename T> T read(const ipc::Published<T> &published) const
 	{
 		if (T value; published.read(value)) return value;
@@ -78,6 +81,7 @@ private:
 	uint32_t forkCount_;
 	ClosedInChildren closedInChildren_;
 	mutable std::atomic<bool> lost_{false};
+	mutable std::atomic<XrTime> suspectedBeat_{-1}, suspectedSince_{0};
 };
 
 } // namespace arift::openxr

@@ -121,7 +121,11 @@ TEST(Instance, ASilentServiceIsLost)
 	service.stopHeart();
 	service.system().heartbeat = realTime() - 3 * second;
 	XrEventDataBuffer event;
-	ASSERT_EQ(application.poll(event), XR_SUCCESS);
+	const XrTime noticed = realTime();
+	XrResult result = XR_EVENT_UNAVAILABLE;
+	while ((result = application.poll(event)) == XR_EVENT_UNAVAILABLE) ASSERT_LT(realTime() - noticed, 10 * second);
+	ASSERT_EQ(result, XR_SUCCESS);
+	EXPECT_GE(realTime() - noticed, 250 * millisecond) << "it is given the time to beat once more";
 	EXPECT_EQ(event.type, XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED);
 	EXPECT_EQ(reinterpret_cast<XrEventDataSessionStateChanged &>(event).state, XR_SESSION_STATE_LOSS_PENDING);
 	ASSERT_EQ(application.poll(event), XR_SUCCESS);
@@ -129,6 +133,24 @@ TEST(Instance, ASilentServiceIsLost)
 	EXPECT_EQ(application.poll(event), XR_ERROR_INSTANCE_LOST);
 	EXPECT_EQ(application.begin(session), XR_ERROR_INSTANCE_LOST);
 	EXPECT_EQ(application.get<PFN_xrDestroySession>("xrDestroySession")(session), XR_SUCCESS);
+}
+
+TEST(Instance, AfterTheWholeMachineStoodStillNothingIsLost)
+{
+	FakeService service;
+	const Application application({"XR_MND_headless"});
+	application.session();
+	application.states();
+	service.stopHeart();
+	service.system().heartbeat = realTime() - 3 * second; // as the first to wake finds it
+	XrEventDataBuffer event;
+	EXPECT_EQ(application.poll(event), XR_EVENT_UNAVAILABLE);
+	service.system().heartbeat = realTime(); // the service has woken as well
+	EXPECT_EQ(application.poll(event), XR_EVENT_UNAVAILABLE);
+	std::this_thread::sleep_for(std::chrono::milliseconds(350)); // longer than the second look is away
+	EXPECT_EQ(application.poll(event), XR_EVENT_UNAVAILABLE);
+	service.system().heartbeat = realTime() - 3 * second; // another time is another first look
+	EXPECT_EQ(application.poll(event), XR_EVENT_UNAVAILABLE);
 }
 
 TEST(Instance, AServiceThatDiesEndsAWaitAtOnce)
