@@ -132,10 +132,12 @@ void Compositor::Loop::trace(const Frame &frame, XrTime realBegan)
 
 void Compositor::Loop::hand(Frame &frame)
 {
+	std::array<std::optional<ReadbackImage>, 2> made; // of each kind one, however many want it
 	for (Wanted &each : frame.wanted) {
 		try {
-			const bool panel = each.kind == ipc::PictureKind::panel;
-			each.promise.set_value({panel ? panel_->readPanel() : panel_->renderEyes(frame.inputs), frame.result.display});
+			auto &image = made[size_t(each.kind)];
+			if (!image) image = each.kind == ipc::PictureKind::panel ? panel_->readPanel() : panel_->renderEyes(frame.inputs);
+			each.promise.set_value({*image, frame.result.display});
 		} catch (const std::exception &) {
 			each.promise.set_exception(std::current_exception());
 		}

@@ -84,7 +84,9 @@ TEST(Clocks, AProcessThatStoodStillMakesUpForNothing)
 {
 	PrivateService service(configuration);
 	ASSERT_TRUE(eventually(service, [](const auto &status) { return status["frames"]["shown"] > 10; }));
-	const auto before = service.status(true);
+	service.status(true);
+	ASSERT_TRUE(eventually(service, [](const auto &status) { return status["frames"]["shown"] > 2; })); // a gap is one between two images
+	const auto before = service.status();
 	::kill(service.process().pid(), SIGSTOP);
 	std::this_thread::sleep_for(
 		4s); // a second of its clock: sixty images, forty-three of each camera and a thousand samples of the tracker

@@ -1,6 +1,7 @@
 // The compositor's thread in simulated time, with a panel that draws nothing and a tracker and camera that this test plays.
 #include "runtime/compositor/compositor.h"
 #include "runtime/ipc/shared_memory.h"
+#include "runtime/service/headset.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <set>
@@ -34,8 +35,14 @@ public:
 		drawn_.update([&](auto &all) { all.push_back({inputs, clock_.now()}); });
 	}
 	Target::Result present(const Pacer::Refresh &refresh) override { return target_->present(VK_NULL_HANDLE, {}, refresh); }
-	ReadbackImage readPanel() override { return {.width = 1, .height = 1, .pixels = std::vector<std::byte>(4)}; }
+	ReadbackImage readPanel() override
+	{
+		reads++;
+		return {.width = 1, .height = 1, .pixels = std::vector<std::byte>(4)};
+	}
 	ReadbackImage renderEyes(const PanelInputs &) override { return {.width = 2, .height = 1, .pixels = std::vector<std::byte>(8)}; }
+
+	static inline std::atomic<size_t> reads = 0;
 
 private:
 	Clock &clock_;
@@ -195,11 +202,44 @@ TEST_F(CompositorTest, PicturesAreHandedOut)
 	EXPECT_GT(eyes->displayTime, panel->displayTime);
 }
 
+TEST_F(CompositorTest, ManyMonitorsTogetherCostAFrameOnePicture)
+{
+	FakePanel::reads = 0;
+	std::atomic<int> answered = 0;
+	std::vector<std::jthread> monitors;
+	for (int i = 0; i < 8; ++i)
+		monitors.emplace_back([&] { answered += compositor_->picture(ipc::PictureKind::panel, 10 * second).has_value(); });
+	std::this_thread::sleep_for(std::chrono::milliseconds(100)); // time stands still: all of them want the next image
+	while (answered < 8 && clock_->now() < 1000 * second) run(1);
+	monitors.clear();
+	EXPECT_EQ(answered, 8);
+	EXPECT_LE(FakePanel::reads, 2u);
+}
+
 TEST_F(CompositorTest, FiguresBeginAnewAfterAReset)
 {
 	run(10);
 	EXPECT_GE(compositor_->figures(true).shown, 8u);
 	EXPECT_EQ(compositor_->figures(false).shown, 0u);
+}
+
+// ---- what is too old
+
+TEST(Assemble, AnImageOlderThanASecondIsNone)
+{
+	const Rig rig = rigFor({});
+	const ipc::SharedPage<PoseRing> poses{"test"};
+	Latched latched;
+	latched.cameras[0] = {{.frame = {.midExposure = 10 * second}}};
+	latched.cameras[1] = {{.frame = {.midExposure = 10 * second + 500 * millisecond}}};
+	const auto lensOf = [&](XrTime display, size_t eye) -> std::optional<uint32_t> {
+		const PanelInputs inputs = assemble(rig, {}, PoseHistory(*poses), display, latched);
+		return inputs.cameras[eye] ? std::optional(inputs.cameras[eye]->lens) : std::nullopt;
+	};
+	EXPECT_EQ(lensOf(11 * second, 0), 0u) << "old, and shown with a sign";
+	EXPECT_EQ(lensOf(11 * second + millisecond, 0), 1u) << "the other eye's is better than one that is too old";
+	EXPECT_EQ(lensOf(11 * second + 501 * millisecond, 0), std::nullopt) << "a frozen world must not look alive";
+	EXPECT_EQ(lensOf(11 * second + 501 * millisecond, 1), std::nullopt);
 }
 
 // ---- the record
