@@ -34,16 +34,6 @@ fs::path ownFile()
 	return named.empty() ? fs::canonical("/proc/self/exe", ignored) : named;
 }
 
-/// The launch option to add, where this process cannot start programs outside its sandbox; empty outside of one.
-std::string_view sandboxHint()
-{
-	std::error_code ignored;
-	if (fs::exists("/.flatpak-info", ignored)) return "run it with: flatpak run --filesystem=xdg-run/arift …";
-	if (fs::exists("/run/pressure-vessel", ignored))
-		return "set the launch option: PRESSURE_VESSEL_FILESYSTEMS_RW=$XDG_RUNTIME_DIR/arift %command%";
-	return {};
-}
-
 /// What the launched service says of itself before it listens: empty while it is starting, and when it leaves because another was faster.
 class Complaint
 {
@@ -65,6 +55,8 @@ public:
 		return ended_ && !text_.empty();
 	}
 	const std::string &text() const { return text_; }
+	/// It has left without a word.
+	bool isSilent() const { return ended_ && text_.empty(); }
 
 private:
 	UniqueFd pipe_;
@@ -72,22 +64,41 @@ private:
 	bool ended_ = false;
 };
 
+/// Another was faster, or one that is dying still holds the lock: after so long (real time) without a listener it was the latter.
+constexpr XrDuration fasterListens = 200 * millisecond;
+
 Connection launchAndConnect(const fs::path &service, XrDuration limit)
 {
 	const XrTime deadline = realTime() + limit;
 	const fs::path log = logPath();
-	Complaint complaint(spawnDetached(service, {"--launched"}, log));
-	XrDuration pause = 2 * millisecond;
 	while (realTime() < deadline) {
-		if (auto socket = connectTo(socketPath())) return {std::move(socket), {}};
-		if (complaint.waitFor(pause)) return {std::nullopt, complaint.text()};
-		pause = std::min(2 * pause, 50 * millisecond);
+		Complaint complaint(spawnDetached(service, {"--launched"}, log));
+		XrDuration pause = 2 * millisecond;
+		for (XrTime left = 0; realTime() < deadline;) {
+			if (auto socket = connectTo(socketPath())) return {std::move(socket), {}};
+			if (complaint.waitFor(pause)) return {std::nullopt, complaint.text()};
+			pause = std::min(2 * pause, 50 * millisecond);
+			if (complaint.isSilent() && left == 0) left = realTime();
+			if (left != 0 && realTime() - left > fasterListens) break;
+		}
 	}
 	return {std::nullopt, fmt::format("{} did not listen on {} within {:.1f} s; its log is {}", service.string(), socketPath().string(),
 									  inSeconds(limit), log.string())};
 }
 
 } // namespace
+
+std::string sandboxHint(const fs::path &root)
+{
+	std::error_code ignored;
+	if (fs::exists(root / ".flatpak-info", ignored)) return "run this program with: flatpak run --filesystem=xdg-run/arift …";
+	if (fs::exists(root / "run/pressure-vessel", ignored))
+		return "set the launch option: PRESSURE_VESSEL_FILESYSTEMS_RW=$XDG_RUNTIME_DIR/arift %command%";
+	const char *snap = std::getenv("SNAP_NAME");
+	if (snap && *snap && std::getenv("SNAP"))
+		return fmt::format("install this program so that it may leave its snap: snap install --classic {}", snap);
+	return {};
+}
 
 fs::path findService()
 {
@@ -117,10 +128,11 @@ Connection connectOrLaunch(XrDuration limit)
 {
 	try {
 		if (auto socket = connectTo(socketPath())) return {std::move(socket), {}};
-		if (const auto hint = sandboxHint(); !hint.empty())
+		if (const std::string hint = sandboxHint(); !hint.empty())
 			return {std::nullopt,
-					fmt::format("no arift-service listens on {} and this program runs in a sandbox; start `arift service` outside, and {}",
-								socketPath().string(), hint)};
+					fmt::format(
+						"no arift-service can be reached on {} and this program runs in a sandbox: start `arift service` outside, and {}",
+						socketPath().string(), hint)};
 		const fs::path service = findService();
 		if (service.empty()) {
 			const char *named = std::getenv("ARIFT_SERVICE");

@@ -23,6 +23,10 @@ Connection connectToService();
 /// nothing is started; the problem names the launch option that lets the socket through.
 Connection connectOrLaunch(XrDuration limit);
 
+/// What to do where this process runs in a sandbox, from which no program outside can be started: the launch option or command that lets
+/// the socket through. Empty outside of one. `root` is where the file system begins.
+std::string sandboxHint(const std::filesystem::path &root = "/");
+
 /// The service program that would be started; empty where there is none.
 std::filesystem::path findService();
 

@@ -2,6 +2,7 @@
 #include "runtime/ipc/launch.h"
 #include "runtime/openxr/fork.h"
 #include <poll.h>
+#include <unistd.h>
 
 namespace arift::openxr
 {
@@ -11,6 +12,11 @@ namespace
 /// How long the service may take to come up: it listens before it opens devices and GPU.
 constexpr XrDuration launchLimit = 15 * second;
 
+/// How long (real time) a service may hang up before its first word: one that is dying takes connections until the kernel has closed its
+/// sockets, and the next to connect finds its successor.
+constexpr XrDuration dyingLimit = 3 * second;
+constexpr XrDuration dyingPause = 20 * millisecond;
+
 ipc::Socket connect()
 {
 	watchForks();
@@ -19,10 +25,9 @@ ipc::Socket connect()
 	return std::move(*connection.socket);
 }
 
-/// The service's first word. It may still be opening its devices.
-ipc::Answer<ipc::Welcome> greet(ipc::Requests &requests, const ipc::Hello &hello)
+/// The service's first word, checked. It may still be opening its devices.
+void requireSense(const ipc::Answer<ipc::Welcome> &answer)
 {
-	auto answer = requests.ask<ipc::Welcome>(hello, Service::openingLimit);
 	if (!answer) {
 		const bool refused = answer.how == ipc::Answered::refused;
 		throw Error(refused ? XrResult(answer.failure.result) : XR_ERROR_RUNTIME_UNAVAILABLE, "arift-service: {}",
@@ -36,7 +41,6 @@ ipc::Answer<ipc::Welcome> greet(ipc::Requests &requests, const ipc::Hello &hello
 	if (welcome.blendModeCount < 1 || welcome.blendModeCount > welcome.blendModes.size() || welcome.maxLayers > ipc::maxLayers)
 		throw Error(XR_ERROR_RUNTIME_FAILURE, "arift-service sent {} blend modes and a limit of {} layers", welcome.blendModeCount,
 					welcome.maxLayers);
-	return answer;
 }
 
 /// CLOCK_MONOTONIC as of the last tick: a few milliseconds old, and several times cheaper.
@@ -47,15 +51,24 @@ XrTime coarseTime()
 	return XrTime(now.tv_sec) * second + now.tv_nsec;
 }
 
-std::unique_ptr<ipc::Requests> requestsOver(ipc::Socket socket) { return std::make_unique<ipc::Requests>(std::move(socket)); }
-
 } // namespace
 
-Service::Service(const ipc::Hello &hello) : Service(hello, connect()) {}
+Service::Greeting Service::greet(const ipc::Hello &hello)
+{
+	for (const XrTime giveUp = realTime() + dyingLimit;; ::usleep(useconds_t(dyingPause / microsecond))) {
+		Greeting greeting{std::make_unique<ipc::Requests>(connect()), {}};
+		greeting.answer = greeting.requests->ask<ipc::Welcome>(hello, openingLimit);
+		if (greeting.answer.how == ipc::Answered::hungUp && realTime() < giveUp) continue;
+		requireSense(greeting.answer);
+		return greeting;
+	}
+}
 
-Service::Service(const ipc::Hello &hello, ipc::Socket socket)
-	: requests_(requestsOver(std::move(socket))),
-	  answer_(greet(*requests_, hello)),
+Service::Service(const ipc::Hello &hello) : Service(greet(hello)) {}
+
+Service::Service(Greeting greeting)
+	: requests_(std::move(greeting.requests)),
+	  answer_(std::move(greeting.answer)),
 	  system_(std::move(answer_.fds[0])),
 	  ring_(std::move(answer_.fds[1])),
 	  client_(std::move(answer_.fds[2])),

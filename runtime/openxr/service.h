@@ -63,7 +63,13 @@ public:
 	void lose(const char *why) const;
 
 private:
-	Service(const ipc::Hello &hello, ipc::Socket socket);
+	/// A connection, and the service's first word on it.
+	struct Greeting {
+		std::unique_ptr<ipc::Requests> requests;
+		ipc::Answer<ipc::Welcome> answer;
+	};
+	static Greeting greet(const ipc::Hello &hello);
+	explicit Service(Greeting greeting);
 	bool isSilentAgain(XrTime beat, XrTime now) const;
 	template <typename T> T read(const ipc::Published<T> &published) const
 	{

@@ -131,6 +131,7 @@ void FakeService::serve(ipc::Socket &socket, const std::stop_token &stop)
 void FakeService::answer(ipc::Socket &socket, const ipc::Received &received)
 {
 	if (const auto hello = received.as<ipc::Hello>()) {
+		if (deaf_ > 0 && deaf_-- > 0) return socket.hangUp();
 		record_.update([&](Record &record) { record.hellos.push_back(*hello); });
 		return reply(socket, received, welcome_, std::array{system_.fd(), ring_.fd(), client_.fd()});
 	}

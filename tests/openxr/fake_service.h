@@ -36,6 +36,8 @@ public:
 	void setShowing(bool showing) { showing_ = showing; }
 	/// How long xrWaitFrame takes.
 	void setPace(XrDuration pace) { pace_ = pace; }
+	/// The next so many that say hello are hung up on.
+	void hangUpOnHello(int times) { deaf_ = times; }
 	/// Nothing is answered from now on.
 	void stopAnswering() { answering_ = false; }
 	void stopHeart() { beating_ = false; }
@@ -81,6 +83,7 @@ private:
 	ipc::SharedPage<ipc::ClientPage> client_{"fake-client"};
 	PoseWriter writer_{*ring_};
 	std::atomic<bool> beating_{true}, showing_{true}, readingFrames_{true}, answering_{true};
+	std::atomic<int> deaf_{0};
 	std::atomic<XrDuration> pace_{0};
 	std::atomic<XrResult> refusal_{XR_SUCCESS};
 	std::optional<ipc::Socket> unread_; ///< the service's end of a frame channel

@@ -96,6 +96,14 @@ TEST(Instance, WithoutAServiceTheReasonIsTold)
 	EXPECT_EQ(Application().created, XR_ERROR_RUNTIME_UNAVAILABLE);
 }
 
+/// A dying service takes connections until the kernel has closed its sockets.
+TEST(Instance, WhoFindsADyingServiceFindsItsSuccessor)
+{
+	FakeService service;
+	service.hangUpOnHello(2);
+	EXPECT_EQ(Application().created, XR_SUCCESS);
+}
+
 /// The service's own word for it is not among xrCreateSession's results.
 TEST(Instance, AHeadsetThatCannotBeOpenedMakesNoSession)
 {

@@ -10,8 +10,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
+#include <sys/wait.h>
 #include <thread>
 
 using namespace arift;
@@ -63,6 +67,110 @@ TEST_F(Launch, ALinkInPlaceOfTheRuntimeDirectoryIsRefused)
 	fs::permissions(root_ / "elsewhere", fs::perms(0700));
 	fs::create_symlink(root_ / "elsewhere", root_ / "arift");
 	EXPECT_THROW(runtimeDirectory(), InputError);
+}
+
+TEST_F(Launch, WithoutARuntimeDirectoryThereIsAPrivateOneOfTheUsersOwn)
+{
+	::unsetenv("XDG_RUNTIME_DIR");
+	const std::string user = std::to_string(::geteuid());
+	const bool madeBefore = fs::exists("/run/user/" + user + "/arift") || fs::exists("/tmp/arift-" + user);
+	const fs::path path = runtimeDirectory();
+	EXPECT_TRUE(path == "/run/user/" + user + "/arift" || path == "/tmp/arift-" + user) << path;
+	EXPECT_EQ(fs::status(path).permissions(), fs::perms(0700));
+	if (!madeBefore) fs::remove(path);
+	::setenv("XDG_RUNTIME_DIR", "relative/folder", 1);
+	EXPECT_TRUE(runtimeDirectory().is_absolute()) << "a relative path counts as none, as the XDG specification has it";
+	if (!madeBefore) fs::remove(path);
+}
+
+/// Only root can give a folder away, or become somebody else.
+class OtherUser : public Launch
+{
+protected:
+	static constexpr uid_t nobody = 65534;
+	void SetUp() override
+	{
+		if (::geteuid() != 0) GTEST_SKIP() << "needs root";
+	}
+	/// What `work` returns in a process of another user.
+	static int asNobody(const std::function<int()> &work)
+	{
+		const pid_t child = ::fork();
+		if (child == 0) ::_exit(::setgid(nobody) == 0 && ::setuid(nobody) == 0 ? work() : 99);
+		int status = -1;
+		::waitpid(child, &status, 0);
+		return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+	}
+};
+
+TEST_F(OtherUser, ARuntimeDirectoryOfAnotherUserIsRefused)
+{
+	ASSERT_EQ(::chown(runtimeDirectory().c_str(), nobody, nobody), 0);
+	try {
+		runtimeDirectory();
+		ADD_FAILURE() << "it was taken";
+	} catch (const InputError &error) {
+		EXPECT_NE(std::string(error.what()).find("belongs to user 65534, expected user 0"), std::string::npos) << error.what();
+	}
+}
+
+TEST_F(OtherUser, ConnectionsAcrossUsersAreRefusedOnBothSides)
+{
+	const fs::path open = root_ / "open.sock"; // as if somebody had opened the doors before it
+	fs::permissions(root_, fs::perms(0755));
+	Listener listener(open);
+	fs::permissions(open, fs::perms(0777));
+	int connected = -1, refusedHere = -1;
+	const pid_t main = ::getpid();
+	connected = asNobody([&] {
+		try {
+			connectTo(open);
+			return 0;
+		} catch (const InputError &error) {
+			return std::string(error.what()).find("belongs to user 0, expected user 65534") != std::string::npos ? 1 : 2;
+		}
+	});
+	ASSERT_EQ(::getpid(), main);
+	EXPECT_EQ(connected, 1) << "the client notices whose service it is";
+	refusedHere = asNobody([&] {
+		const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);
+		sockaddr_un address{};
+		address.sun_family = AF_UNIX;
+		open.native().copy(address.sun_path, sizeof(address.sun_path) - 1);
+		return ::connect(fd, reinterpret_cast<const sockaddr *>(&address), sizeof(address)) == 0 ? 0 : 1;
+	});
+	EXPECT_EQ(refusedHere, 0) << "the kernel lets it in";
+	EXPECT_FALSE(listener.accept(realTime() + second / 5)) << "and the service does not";
+}
+
+TEST_F(Launch, ASandboxIsToldTheOptionThatLetsTheSocketThrough)
+{
+	EXPECT_EQ(sandboxHint(root_), "");
+	::setenv("SNAP", "/snap/game/1", 1);
+	::setenv("SNAP_NAME", "game", 1);
+	EXPECT_NE(sandboxHint(root_).find("snap install --classic game"), std::string::npos);
+	::unsetenv("SNAP");
+	::unsetenv("SNAP_NAME");
+	fs::create_directories(root_ / "run/pressure-vessel");
+	EXPECT_NE(sandboxHint(root_).find("PRESSURE_VESSEL_FILESYSTEMS_RW=$XDG_RUNTIME_DIR/arift"), std::string::npos);
+	std::ofstream(root_ / ".flatpak-info") << "[Application]\n";
+	EXPECT_NE(sandboxHint(root_).find("--filesystem=xdg-run/arift"), std::string::npos);
+}
+
+/// From a sandbox nothing is started, though it could be; a service that runs is found.
+TEST_F(Launch, InsideASandboxOnlyTheSocketIsTried)
+{
+	::setenv("ARIFT_SERVICE", LAUNCHED_PROGRAM, 1);
+	::setenv("SNAP", "/snap/game/1", 1);
+	::setenv("SNAP_NAME", "game", 1);
+	const Connection none = connectOrLaunch(10 * second);
+	EXPECT_FALSE(none.socket);
+	EXPECT_NE(none.problem.find("runs in a sandbox"), std::string::npos) << none.problem;
+	EXPECT_TRUE(lines("started").empty());
+	Listener listener(socketPath());
+	EXPECT_TRUE(connectOrLaunch(10 * second).socket);
+	::unsetenv("SNAP");
+	::unsetenv("SNAP_NAME");
 }
 
 TEST_F(Launch, ASocketPathThatIsTooLongIsSaid)
@@ -131,6 +239,21 @@ TEST_F(Launch, TwentyAtOnceStartOneService)
 	const auto started = lines("started");
 	EXPECT_EQ(std::ranges::count_if(started, [](const std::string &line) { return line.starts_with("listens"); }), 1);
 	Requests(std::move(*connections[0].socket)).command(ShutDown{}, 10 * second);
+}
+
+/// A killed service keeps its lock until the kernel has closed its files: who starts one meanwhile starts another.
+TEST_F(Launch, ALockThatIsLetGoLateHindersNobody)
+{
+	::setenv("ARIFT_SERVICE", LAUNCHED_PROGRAM, 1);
+	auto dying = takeServiceLock(lockPath());
+	ASSERT_TRUE(dying);
+	std::jthread end([&] {
+		std::this_thread::sleep_for(std::chrono::milliseconds(300)); // longer than the first one started takes to leave
+		dying.reset();
+	});
+	Connection connection = connectOrLaunch(10 * second);
+	ASSERT_TRUE(connection.socket) << connection.problem;
+	Requests(std::move(*connection.socket)).command(ShutDown{}, 10 * second);
 }
 
 TEST_F(Launch, TheServiceHasNothingOfItsHost)
