@@ -9,12 +9,18 @@ namespace arift::openxr
 
 class Space : public Object
 {
+	static bool isIdentity(const XrPosef &pose)
+	{
+		const auto &[q, p] = pose;
+		return q.x == 0 && q.y == 0 && q.z == 0 && q.w == 1 && p.x == 0 && p.y == 0 && p.z == 0;
+	}
+
 public:
 	/// A reference space, or an action space: nothing is bound to any action yet, so those have no place.
 	enum class Kind { view, local, localFloor, stage, action };
 
 	Space(Session &owner, Kind what, const XrPosef &poseInBase)
-		: session(owner), kind(what), offset(poseInBase), isOffset(std::memcmp(&offset, &identityPose, sizeof offset) != 0)
+		: session(owner), kind(what), offset(poseInBase), isOffset(!isIdentity(poseInBase))
 	{
 	}
 	void requireAlive() const override { session.requireAlive(); }

@@ -81,7 +81,7 @@ FakeService::~FakeService()
 void FakeService::beat(const std::stop_token &stop)
 {
 	while (!stop.stop_requested()) {
-		if (beating_) system_->heartbeat = realTime();
+		system_->heartbeat = realTime();
 		std::this_thread::sleep_for(std::chrono::milliseconds(20));
 	}
 }

