@@ -28,6 +28,8 @@ protected:
 	{
 		eventually(service_, [](const auto &status) { return status["frames"]["shown"] > 0; });
 		startUp_ = realTime() - startedAt_;
+		// The cameras' textures and the vertices have their memory with the first images that need it.
+		eventually(service_, [](const auto &status) { return status["frames"]["shown"] > 15; });
 	}
 	/// The service alone has the layer: applications have a GPU that works.
 	PrivateService withLayer() const

@@ -77,7 +77,7 @@ protected:
 		probe.status(true);
 		eventually(probe, [](const auto &status) { return status["frames"]["shown"] > 20; });
 		const double cost = probe.status()["frames"]["composeMs"]["median"]; // the p99 of twenty images is the first one
-		const double rate = std::clamp(0.4 * period / cost, 0.1, 1.0);
+		const double rate = std::clamp(0.3 * period / cost, 0.1, 1.0);
 		fmt::print(stderr, "[ FIGURE   ] composing takes {:.1f} ms: the clock runs at {:.2f} of real time\n", cost, rate);
 		return rate;
 	}
@@ -97,14 +97,29 @@ protected:
 		application.wait(std::chrono::seconds(10));
 		std::filesystem::remove(service_.tree().root() / "stopping_application.log"); // the next one writes its own
 	}
-	/// Gaps in a second from now, during which no image may be without the cameras.
-	int gapsInASecond(const char *when)
+	/// Gaps in a second from now, during which no image may be without the cameras. Nothing where others kept the machine so busy that
+	/// composing took longer than half a refresh: then gaps say nothing of applications.
+	std::optional<int> gapsInASecond(const char *when)
 	{
 		oneSecond();
 		const auto frames = service_.status()["frames"];
 		EXPECT_GT(frames["shown"].get<int>(), 5) << when;
 		EXPECT_EQ(frames["withoutCamera"], 0) << when;
+		if (frames["composeMs"]["p99"].get<double>() * rate_ > period / 2) return std::nullopt;
 		return frames["gaps"];
+	}
+	static void judge(const std::vector<std::optional<int>> &seconds, const char *when)
+	{
+		int most = 0, all = 0, judged = 0;
+		for (const auto &gaps : seconds) {
+			if (!gaps) continue;
+			judged++;
+			all += *gaps;
+			most = std::max(most, *gaps);
+		}
+		fmt::print(stderr, "[ FIGURE   ] {}: {} gaps in {} seconds, at most {} in one; in {} more the machine was too busy to say\n", when,
+				   all, judged, most, int(seconds.size()) - judged);
+		EXPECT_LE(most, 1) << when;
 	}
 	void expectTheWorld(const char *when)
 	{
@@ -135,7 +150,7 @@ ProcessUsage settledUsage(PrivateService &service)
 TEST_F(Kills, FiftyKillsLeaveNoGapAndNothingBehind)
 {
 	std::mt19937 random(7);
-	std::vector<int> gaps;
+	std::vector<std::optional<int>> gaps;
 	ProcessUsage before{};
 	for (int number = -5; number < 50; ++number) {
 		// The first ones only fill the allocator's caches; the last ten are killed at the named points, the others anywhere.
@@ -158,15 +173,8 @@ TEST_F(Kills, FiftyKillsLeaveNoGapAndNothingBehind)
 		ASSERT_TRUE(isForgotten()) << point;
 	}
 	const ProcessUsage after = settledUsage(service_);
-	int worst = *std::ranges::max_element(gaps), usual = 0;
-	if (worst > 1) // the machine's own: seconds in which nobody is killed
-		for (size_t i = 0; i < gaps.size(); ++i) {
-			service_.status(true);
-			usual = std::max(usual, gapsInASecond("nobody is killed"));
-		}
-	fmt::print(stderr, "[ FIGURE   ] gaps in the second after a kill: at most {}, without one at most {}\n", worst, usual);
 	fmt::print(stderr, "[ FIGURE   ] before 50 kills {}\n[ FIGURE   ] after them {}\n", describe(before), describe(after));
-	EXPECT_LE(worst - usual, 1);
+	judge(gaps, "a second after a kill");
 	EXPECT_EQ(after.descriptors, before.descriptors);
 	EXPECT_EQ(after.threads, before.threads);
 	EXPECT_LE(after.mappings, before.mappings);
@@ -179,7 +187,7 @@ TEST_F(Kills, AHungApplicationIsLeftOutAndGoesOnLater)
 	ChildProcess application = start("image released");
 	ASSERT_TRUE(await([&] { return isStopped(application); })) << application.output();
 	service_.status(true);
-	EXPECT_LE(gapsInASecond("hung"), 1);
+	judge({gapsInASecond("hung")}, "an application hangs");
 	expectTheWorld("hung");
 	const uint64_t before = submitted(service_.status());
 	::kill(application.pid(), SIGCONT);
@@ -193,6 +201,6 @@ TEST_F(Kills, AConnectionThatSaysNothingIsNoBurden)
 	std::vector<ipc::Socket> silent;
 	for (int i = 0; i < 8; ++i) silent.push_back(connectTo(service_.tree()).value());
 	service_.status(true);
-	EXPECT_LE(gapsInASecond("silent connections"), 1);
+	judge({gapsInASecond("silent connections")}, "eight connections that say nothing");
 	expectTheWorld("silent connections");
 }
