@@ -1,5 +1,7 @@
 #version 450
 // One pixel: lens -> tangents per colour -> camera texel and layer texel at this line's pose -> blended in linear light.
+// Written for a software renderer as much as for a GPU: what costs there is the length of the chain of dependent operations, functions that
+// sample float textures or encoded ones, and every fetch from memory.
 
 layout(constant_id = 0) const int distortionCoefficients = 16;
 layout(constant_id = 1) const int cameraCoefficients = 16;   // 0: the table
@@ -9,64 +11,77 @@ layout(constant_id = 4) const bool encoded = false;          // camera values ar
 layout(constant_id = 5) const bool hasLayer = false;
 layout(constant_id = 6) const bool throughLens = true;       // false: the eye's image before the lens correction
 layout(constant_id = 7) const bool redItself = false;        // red is evaluated, not derived from green and blue
+layout(constant_id = 8) const bool layerEncoded = false;     // the layer's texels are sRGB encoded
 
-// What the Rig decides is constant too. What changes from image to image comes from the vertices: a software renderer gathers every number
-// that a fragment reads from a block, pixel by pixel.
+// What the Rig decides is constant too. What changes from image to image comes from the vertices: a software renderer checks the range of
+// every number that a fragment reads from a block.
 #define ARIFT_NUMBER(id, name) layout(constant_id = id) const float name = 0.0;
-ARIFT_NUMBER(8, d0) ARIFT_NUMBER(9, d1) ARIFT_NUMBER(10, d2) ARIFT_NUMBER(11, d3)
-ARIFT_NUMBER(12, d4) ARIFT_NUMBER(13, d5) ARIFT_NUMBER(14, d6) ARIFT_NUMBER(15, d7)
-ARIFT_NUMBER(16, d8) ARIFT_NUMBER(17, d9) ARIFT_NUMBER(18, d10) ARIFT_NUMBER(19, d11)
-ARIFT_NUMBER(20, d12) ARIFT_NUMBER(21, d13) ARIFT_NUMBER(22, d14) ARIFT_NUMBER(23, d15)
-ARIFT_NUMBER(24, largestR2) ARIFT_NUMBER(25, rimScale) ARIFT_NUMBER(26, fillScale)
-ARIFT_NUMBER(27, blue0) ARIFT_NUMBER(28, blue1) ARIFT_NUMBER(29, red0) ARIFT_NUMBER(30, red1)
-ARIFT_NUMBER(31, redFromBlue0) ARIFT_NUMBER(32, redFromBlue1) ARIFT_NUMBER(33, g0) ARIFT_NUMBER(34, g1)
-ARIFT_NUMBER(35, g2) ARIFT_NUMBER(36, g3) ARIFT_NUMBER(37, g4) ARIFT_NUMBER(38, g5)
-ARIFT_NUMBER(39, g6) ARIFT_NUMBER(40, g7) ARIFT_NUMBER(41, g8) ARIFT_NUMBER(42, g9)
-ARIFT_NUMBER(43, g10) ARIFT_NUMBER(44, g11) ARIFT_NUMBER(45, g12) ARIFT_NUMBER(46, g13)
-ARIFT_NUMBER(47, g14) ARIFT_NUMBER(48, g15) ARIFT_NUMBER(49, centreX) ARIFT_NUMBER(50, centreY)
-ARIFT_NUMBER(51, cosineCentre) ARIFT_NUMBER(52, cosineScale) ARIFT_NUMBER(53, affineXx) ARIFT_NUMBER(54, affineXy)
-ARIFT_NUMBER(55, affineYx) ARIFT_NUMBER(56, affineYy) ARIFT_NUMBER(57, p1) ARIFT_NUMBER(58, p2)
-ARIFT_NUMBER(59, xi) ARIFT_NUMBER(60, tableScale) ARIFT_NUMBER(61, leastCosine) ARIFT_NUMBER(62, cosineFade)
-ARIFT_NUMBER(63, texelFade) ARIFT_NUMBER(64, imageWidth) ARIFT_NUMBER(65, imageHeight)
+ARIFT_NUMBER(9, d0) ARIFT_NUMBER(10, d1) ARIFT_NUMBER(11, d2) ARIFT_NUMBER(12, d3)
+ARIFT_NUMBER(13, d4) ARIFT_NUMBER(14, d5) ARIFT_NUMBER(15, d6) ARIFT_NUMBER(16, d7)
+ARIFT_NUMBER(17, d8) ARIFT_NUMBER(18, d9) ARIFT_NUMBER(19, d10) ARIFT_NUMBER(20, d11)
+ARIFT_NUMBER(21, d12) ARIFT_NUMBER(22, d13) ARIFT_NUMBER(23, d14) ARIFT_NUMBER(24, d15)
+ARIFT_NUMBER(25, largestR2) ARIFT_NUMBER(26, rimScale) ARIFT_NUMBER(27, fillScale) ARIFT_NUMBER(28, blue0)
+ARIFT_NUMBER(29, blue1) ARIFT_NUMBER(30, red0) ARIFT_NUMBER(31, red1) ARIFT_NUMBER(32, redFromBlue0)
+ARIFT_NUMBER(33, redFromBlue1) ARIFT_NUMBER(34, g0) ARIFT_NUMBER(35, g1) ARIFT_NUMBER(36, g2)
+ARIFT_NUMBER(37, g3) ARIFT_NUMBER(38, g4) ARIFT_NUMBER(39, g5) ARIFT_NUMBER(40, g6)
+ARIFT_NUMBER(41, g7) ARIFT_NUMBER(42, g8) ARIFT_NUMBER(43, g9) ARIFT_NUMBER(44, g10)
+ARIFT_NUMBER(45, g11) ARIFT_NUMBER(46, g12) ARIFT_NUMBER(47, g13) ARIFT_NUMBER(48, g14)
+ARIFT_NUMBER(49, g15) ARIFT_NUMBER(50, centreX) ARIFT_NUMBER(51, centreY) ARIFT_NUMBER(52, cosineCentre)
+ARIFT_NUMBER(53, cosineScale) ARIFT_NUMBER(54, affineXx) ARIFT_NUMBER(55, affineXy) ARIFT_NUMBER(56, affineYx)
+ARIFT_NUMBER(57, affineYy) ARIFT_NUMBER(58, p1) ARIFT_NUMBER(59, p2) ARIFT_NUMBER(60, xi)
+ARIFT_NUMBER(61, tableScale) ARIFT_NUMBER(62, leastCosine) ARIFT_NUMBER(63, cosineFade) ARIFT_NUMBER(64, texelFade)
+ARIFT_NUMBER(65, imageWidth) ARIFT_NUMBER(66, imageHeight)
 
-const int backgroundNone = 0, backgroundPattern = 1, backgroundGrey = 2, backgroundBayer = 3, backgroundUnseen = 4;
+const int backgroundNone = 0, backgroundPattern = 1, backgroundCamera = 2, backgroundUnseen = 3;
 
-layout(set = 0, binding = 1) uniform sampler2D firstPlane;   // grey, or the half plane with red
-layout(set = 0, binding = 2) uniform sampler2D secondPlane;  // the half plane with blue
-layout(set = 0, binding = 3) uniform sampler2D angleTable;
-layout(set = 1, binding = 0) uniform sampler2DArray layerTexture;
+layout(set = 0, binding = 1) uniform sampler2D sites;        // CameraImages: each texel the four neighbours that a place lies between
+layout(set = 0, binding = 2) uniform sampler2D angleTable;
+layout(set = 1, binding = 0) uniform sampler2D layerTexture; // values as they are stored: nothing is decoded
 
 layout(location = 0) noperspective in vec2 lensVector;       // tangents before the lens correction
 layout(location = 1) noperspective in mat3 cameraMatrix;     // at this line: EyeBlock, LayerBlock
 layout(location = 4) noperspective in mat3 layerMatrix;
-layout(location = 7) flat in vec4 plane;
-layout(location = 8) flat in vec4 planeOffset[2];
-layout(location = 10) flat in vec4 colourRange;
-layout(location = 11) flat in vec4 fillColour;
-layout(location = 12) flat in vec4 layerRect;
-layout(location = 13) flat in vec4 layerInside;
-layout(location = 14) flat in vec4 mode;                     // the camera image's weight; the layer's array index, alpha counts, multiply
+layout(location = 7) flat in vec4 siteOffset[2];
+layout(location = 9) flat in vec4 siteTexture;
+layout(location = 10) flat in vec4 siteScale;
+layout(location = 11) flat in vec4 colourRange;
+layout(location = 12) flat in vec4 fillColour;
+layout(location = 13) flat in vec4 layerBounds;
+layout(location = 14) flat in vec4 layerMode;
 
 layout(location = 0, index = 0) out vec4 light;
 layout(location = 0, index = 1) out vec4 cover;              // for blending over what is there already
 
-// Horner's rule, written out: arrays of specialisation constants do not exist.
-#define ARIFT_TERM(sum, x, c, count, i) if (count > i) sum = sum * x + c##i;
-#define ARIFT_POLYNOMIAL(sum, x, c, count) \
-	ARIFT_TERM(sum, x, c, count, 15) ARIFT_TERM(sum, x, c, count, 14) ARIFT_TERM(sum, x, c, count, 13) ARIFT_TERM(sum, x, c, count, 12) \
-	ARIFT_TERM(sum, x, c, count, 11) ARIFT_TERM(sum, x, c, count, 10) ARIFT_TERM(sum, x, c, count, 9) ARIFT_TERM(sum, x, c, count, 8) \
-	ARIFT_TERM(sum, x, c, count, 7) ARIFT_TERM(sum, x, c, count, 6) ARIFT_TERM(sum, x, c, count, 5) ARIFT_TERM(sum, x, c, count, 4) \
-	ARIFT_TERM(sum, x, c, count, 3) ARIFT_TERM(sum, x, c, count, 2) ARIFT_TERM(sum, x, c, count, 1) ARIFT_TERM(sum, x, c, count, 0)
+// Polynomials, written out: arrays of specialisation constants do not exist. Estrin's scheme: few operations wait for each other.
+#define ARIFT_PAIR(x, c, count, i, j) (count > j ? c##i + c##j * x : count > i ? c##i : 0.0)
+#define ARIFT_FOUR(x, x2, c, count, i, j, k, l) (ARIFT_PAIR(x, c, count, i, j) + (count > k ? ARIFT_PAIR(x, c, count, k, l) * x2 : 0.0))
+#define ARIFT_EIGHT(x, x2, x4, c, count, i, j, k, l, m, n, o, p) \
+	(ARIFT_FOUR(x, x2, c, count, i, j, k, l) + (count > m ? ARIFT_FOUR(x, x2, c, count, m, n, o, p) * x4 : 0.0))
+#define ARIFT_POLYNOMIAL(x, x2, x4, c, count) \
+	(ARIFT_EIGHT(x, x2, x4, c, count, 0, 1, 2, 3, 4, 5, 6, 7) + \
+	 (count > 8 ? ARIFT_EIGHT(x, x2, x4, c, count, 8, 9, 10, 11, 12, 13, 14, 15) * (x4 * x4) : 0.0))
 
 float stretch(float r2)
 {
-	float sum = 0.0;
-	ARIFT_POLYNOMIAL(sum, r2, d, distortionCoefficients)
-	return sum;
+	const float square = r2 * r2, fourth = square * square;
+	return ARIFT_POLYNOMIAL(r2, square, fourth, d, distortionCoefficients);
 }
 
 /// How each colour's tangents compare with green's, and how red's texel follows from green's and blue's.
 struct Chromatic { float red, blue, redFromBlue; };
+
+/// Light of an sRGB encoded value in 0..1, within half of 1/255 of the encoded value.
+vec4 decoded(vec4 v)
+{
+	return ((((0.749220899 * v - 1.77447071) * v + 1.76711091) * v + 0.195501003) * v + 0.066401595) * v;
+}
+
+/// Never NaN.
+vec2 within(vec2 v, vec2 least, vec2 most)
+{
+	const vec2 low = mix(least, v, greaterThan(v, least));
+	return mix(most, low, lessThan(low, most));
+}
 
 // ---- camera
 
@@ -77,10 +92,8 @@ float radial(float cosine)
 		const float last = float(textureSize(angleTable, 0).x) - 1.0;
 		return textureLod(angleTable, vec2((at * last + 0.5) / (last + 1.0), 0.5), 0.0).r;
 	}
-	const float x = (cosine - cosineCentre) * cosineScale;
-	float sum = 0.0;
-	ARIFT_POLYNOMIAL(sum, x, g, cameraCoefficients)
-	return sum;
+	const float x = (cosine - cosineCentre) * cosineScale, square = x * x, fourth = square * square;
+	return ARIFT_POLYNOMIAL(x, square, fourth, g, cameraCoefficients);
 }
 
 /// ShaderCamera (optics/camera_model.h): texel of a direction, integers at texel centres.
@@ -104,30 +117,22 @@ float seen(vec2 texel, float cosine)
 	const vec2 inside = min(texel + 0.5, vec2(imageWidth, imageHeight) - 0.5 - texel);
 	const float toBorder = clamp(min(inside.x, inside.y) * texelFade, 0.0, 1.0);
 	const float fade = toBorder * clamp((cosine - leastCosine) * cosineFade, 0.0, 1.0);
-	return fade * fade * (3.0 - 2.0 * fade) * mode.x;
+	return fade * fade * (3.0 - 2.0 * fade) * siteScale.y;
+}
+
+/// One colour at a texel: between the four sites of its lattice around it. Beyond the image's edge, where nothing is seen, whatever it is.
+float siteColour(vec2 texel, vec2 offset, float row)
+{
+	const vec2 at = texel * siteScale.x + offset, base = floor(at), part = at - base;
+	const vec4 four = textureLod(sites, base * siteTexture.xy + vec2(siteTexture.z, row), 0.0);
+	const vec2 across = four.xz + (four.yw - four.xz) * part.x;
+	return across.x + (across.y - across.x) * part.y;
 }
 
 vec3 rawColour(vec2 red, vec2 green, vec2 blue)
 {
-	const vec2 perTexel = plane.xy;
-	if (background == backgroundGrey) {
-		const vec2 offset = planeOffset[0].xy;
-		return vec3(textureLod(firstPlane, red * perTexel + offset, 0.0).r, textureLod(firstPlane, green * perTexel + offset, 0.0).r,
-			textureLod(firstPlane, blue * perTexel + offset, 0.0).r);
-	}
-	const vec2 isRed = plane.zw, isGreen = plane.wz;
-	const vec2 r = textureLod(firstPlane, red * perTexel + planeOffset[0].xy, 0.0).rg;
-	const vec2 g1 = textureLod(firstPlane, green * perTexel + planeOffset[0].zw, 0.0).rg;
-	const vec2 g2 = textureLod(secondPlane, green * perTexel + planeOffset[1].xy, 0.0).rg;
-	const vec2 b = textureLod(secondPlane, blue * perTexel + planeOffset[1].zw, 0.0).rg;
-	// In the plane with blue, blue lies where the other one has green.
-	return vec3(dot(r, isRed), 0.5 * (dot(g1, isGreen) + dot(g2, isRed)), dot(b, isGreen));
-}
-
-vec3 decoded(vec3 value)
-{
-	if (!encoded) return value;
-	return mix(value / 12.92, pow((max(value, 0.0) + 0.055) / 1.055, vec3(2.4)), greaterThan(value, vec3(0.04045)));
+	return vec3(siteColour(red, siteOffset[0].xy, siteTexture.w), siteColour(green, siteOffset[0].zw, siteScale.z),
+		siteColour(blue, siteOffset[1].xy, siteScale.w));
 }
 
 vec3 behindLayers(vec2 tangents, Chromatic chromatic, float r2)
@@ -146,18 +151,29 @@ vec3 behindLayers(vec2 tangents, Chromatic chromatic, float r2)
 	const vec2 green = texelOf(q, cosine);
 	const vec2 blue = texelOf(cameraMatrix[2] + across * chromatic.blue, unused);
 	const vec2 red = redItself ? texelOf(cameraMatrix[2] + across * chromatic.red, unused) : green + (blue - green) * chromatic.redFromBlue;
-	const vec3 colour = max((decoded(rawColour(red, green, blue)) - colourRange.w) * colourRange.xyz, 0.0);
-	return mix(fill, colour, seen(green, cosine));
+	vec3 colour = rawColour(red, green, blue);
+	if (encoded) colour = decoded(vec4(colour, 0.0)).rgb;
+	return mix(fill, max((colour - colourRange.w) * colourRange.xyz, 0.0), seen(green, cosine));
 }
 
 // ---- layer
 
-vec4 layerTexel(vec2 uv, float w)
+/// Light and cover of one colour at a texel (integers at texel centres): between the four texels around it, after decoding them.
+vec2 layerTexel(vec2 texel, float w, int channel)
 {
-	const vec2 at = clamp(layerRect.xy + uv * layerRect.zw, layerInside.xy, layerInside.zw);
-	const vec2 far = abs(uv - 0.5);
-	const float inside = w > 0.0 && max(far.x, far.y) <= 0.5 ? 1.0 : 0.0;
-	return textureLod(layerTexture, vec3(at, mode.y), 0.0) * inside + vec4(0.0, 0.0, 0.0, (1.0 - mode.z) * 2.0 * inside);
+	const vec2 at = within(texel, layerBounds.xy, layerBounds.zw), base = floor(at), part = at - base;
+	// In the very middle of the four, so that no rounding chooses others.
+	const vec2 middle = (base + 1.0) * layerMode.xy;
+	vec4 value = channel == 0   ? textureGather(layerTexture, middle, 0)
+				 : channel == 1 ? textureGather(layerTexture, middle, 1)
+								: textureGather(layerTexture, middle, 2);
+	if (layerEncoded) value = decoded(value);
+	const vec4 alpha = textureGather(layerTexture, middle, 3);
+	const vec4 left = vec4(value.wx, alpha.wx), right = vec4(value.zy, alpha.zy);
+	const vec4 across = left + (right - left) * part.x;
+	const vec2 between = across.xz + (across.yw - across.xz) * part.y;
+	const vec2 off = abs(texel - at);
+	return w > 0.0 && max(off.x, off.y) <= 0.5 ? vec2(between.x, min(between.y + layerMode.z, 1.0)) : vec2(0.0);
 }
 
 /// Light of the layer, premultiplied, and how much it covers, per colour.
@@ -165,15 +181,16 @@ void layerLight(vec2 tangents, Chromatic chromatic, out vec3 colour, out vec3 al
 {
 	const vec3 across = layerMatrix[0] * tangents.x + layerMatrix[1] * tangents.y;
 	const vec3 green = layerMatrix[2] + across, blue = layerMatrix[2] + across * chromatic.blue;
-	const vec2 greenUv = green.xy / green.z, blueUv = blue.xy / blue.z;
-	vec2 redUv = greenUv + (blueUv - greenUv) * chromatic.redFromBlue;
+	const vec2 greenTexel = green.xy * (1.0 / green.z), blueTexel = blue.xy * (1.0 / blue.z);
+	vec2 redTexel = greenTexel + (blueTexel - greenTexel) * chromatic.redFromBlue;
 	if (redItself) {
 		const vec3 red = layerMatrix[2] + across * chromatic.red;
-		redUv = red.xy / red.z;
+		redTexel = red.xy * (1.0 / red.z);
 	}
-	const vec4 r = layerTexel(redUv, green.z), g = layerTexel(greenUv, green.z), b = layerTexel(blueUv, green.z);
-	alpha = clamp(vec3(r.a, g.a, b.a), 0.0, 1.0);
-	colour = vec3(r.r, g.g, b.b) * (mode.w > 0.0 ? alpha : vec3(1.0));
+	const vec2 r = layerTexel(redTexel, green.z, 0), g = layerTexel(greenTexel, green.z, 1), b = layerTexel(blueTexel, green.z, 2);
+	alpha = vec3(r.y, g.y, b.y);
+	// layerMode.w: how much of its alpha the colour has still to be multiplied by.
+	colour = vec3(r.x, g.x, b.x) * (1.0 + layerMode.w * (alpha - 1.0));
 }
 
 void main()

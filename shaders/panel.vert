@@ -14,13 +14,13 @@ layout(push_constant, std430) uniform Layer { LayerBlock layer; };
 layout(location = 0) noperspective out vec2 lensVector;
 layout(location = 1) noperspective out mat3 cameraMatrix;
 layout(location = 4) noperspective out mat3 layerMatrix;
-layout(location = 7) flat out vec4 plane;
-layout(location = 8) flat out vec4 planeOffset[2];
-layout(location = 10) flat out vec4 colourRange;
-layout(location = 11) flat out vec4 fillColour;
-layout(location = 12) flat out vec4 layerRect;
-layout(location = 13) flat out vec4 layerInside;
-layout(location = 14) flat out vec4 mode;
+layout(location = 7) flat out vec4 siteOffset[2];
+layout(location = 9) flat out vec4 siteTexture;
+layout(location = 10) flat out vec4 siteScale;
+layout(location = 11) flat out vec4 colourRange;
+layout(location = 12) flat out vec4 fillColour;
+layout(location = 13) flat out vec4 layerBounds;
+layout(location = 14) flat out vec4 layerMode;
 
 mat3 atLine(MatrixByLine m, float s)
 {
@@ -34,12 +34,12 @@ void main()
 	const float s = (position.y - eye.lines.x) * eye.lines.y;
 	lensVector = (position - eye.lines.zw) * vec2(lensVectorPerPixel, -lensVectorPerPixel);
 	cameraMatrix = atLine(eye.camera, s);
-	layerMatrix = atLine(layer.uv, s);
-	plane = eye.plane;
-	planeOffset = eye.planeOffset;
+	layerMatrix = atLine(layer.texel, s);
+	siteOffset = eye.siteOffset;
+	siteTexture = eye.siteTexture;
+	siteScale = eye.siteScale;
 	colourRange = eye.colour;
 	fillColour = eye.fill;
-	layerRect = layer.rect;
-	layerInside = layer.inside;
-	mode = vec4(eye.weight.x, layer.uv.first[0].w, layer.uv.first[1].w, layer.uv.first[2].w);
+	layerBounds = layer.bounds;
+	layerMode = layer.mode;
 }

@@ -10,7 +10,7 @@ namespace arift::shaders
 using glm::vec4;
 #endif
 
-/// A 3x3 matrix that changes linearly from the first line of a band to the line after its last: columns in xyz. w is free.
+/// A 3x3 matrix that changes linearly from the first line of a band to the line after its last: columns in xyz.
 struct MatrixByLine {
 	vec4 first[3];
 	vec4 change[3];
@@ -21,19 +21,18 @@ struct EyeBlock {
 	vec4 lines;          ///< x: pixel row at which the band begins; y: 1 / its height; zw: pixel of the lens axis
 	MatrixByLine camera; ///< (tangents, 1) -> direction in the camera's frame (x right, y down, z forward), any length; without a camera:
 						 ///< in the origin's
-	vec4 plane;          ///< xy: texture coordinate per texel; zw: selects red (and the first green by its complement) in the first plane
-	vec4 planeOffset[2]; ///< texture coordinates of texel (0, 0): first plane's red in xy, its green in zw; second plane's green, its blue
+	vec4 siteOffset[2];  ///< from texel to site, red in xy, green in zw; blue in xy: site = texel * siteScale.x + offset
+	vec4 siteTexture;    ///< xy: texture coordinate per site; z: of column 0's middle; w: of row 0's, for red
+	vec4 siteScale;      ///< x: sites per texel; y: weight of the camera's image against the fill; zw: as siteTexture.w, for green and blue
 	vec4 colour;         ///< xyz: gain by channel; w: raw value of darkness
 	vec4 fill;           ///< xyz: linear light shown where no camera sees; w: how much of what is behind a layer its alpha hides
-	vec4 weight;         ///< x: of the camera's image against the fill
 };
 
 /// One layer as one eye sees it, one band of lines. Push constants: just the 128 bytes that every device has.
 struct LayerBlock {
-	MatrixByLine uv; ///< (tangents, 1) -> (u w, v w, w) with u, v in 0..1 over the sub-image and w > 0 in front; in the free places of
-					 ///< `first`: array layer; 1 where alpha counts; 1 where colour is still to be multiplied by alpha
-	vec4 rect;       ///< xy: texture coordinate of the sub-image's corner; zw: its size
-	vec4 inside;     ///< smallest and largest texture coordinates: the centres of the sub-image's outermost texels
+	MatrixByLine texel; ///< (tangents, 1) -> (x w, y w, w) with x, y texels of the image, integers at their centres, and w > 0 in front
+	vec4 bounds;        ///< first and last texel of the sub-image: xy, zw
+	vec4 mode;          ///< xy: texture coordinate per texel; z: 0 where alpha counts, else 1; w: 1 where colour is not yet multiplied by alpha
 };
 
 #ifdef __cplusplus

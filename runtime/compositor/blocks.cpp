@@ -1,4 +1,5 @@
 #include "runtime/compositor/blocks.h"
+#include "runtime/compositor/camera_sites.h"
 #include <algorithm>
 #include <cmath>
 
@@ -23,40 +24,29 @@ shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band)
 	return block;
 }
 
-/// Where red is in the two-by-two cell: column, row.
-glm::vec2 redOf(PixelFormat format)
+/// Texels to sites of the frame's lattices (camera_sites.h).
+void describeSites(shaders::EyeBlock &block, const CameraFrame &frame)
 {
-	switch (format) {
-	case PixelFormat::bayerGrbg8: return {1, 0};
-	case PixelFormat::bayerGbrg8: return {0, 1};
-	case PixelFormat::bayerBggr8: return {1, 1};
-	default: return {0, 0};
-	}
-}
-
-void describePlanes(shaders::EyeBlock &block, const CameraFrame &frame)
-{
-	if (!isBayer(frame.format)) {
-		const glm::vec2 perTexel(1.0f / float(frame.width), 1.0f / float(frame.height));
-		block.plane = {perTexel.x, perTexel.y, 1, 0};
-		block.planeOffset[0] = {perTexel.x / 2, perTexel.y / 2, 0, 0};
+	const SiteImage image = siteImageOf(frame);
+	const glm::vec2 perSite(1 / float(image.width), 1 / float(image.height * image.planes));
+	const auto firstRow = [&](uint32_t plane) { return (float(plane * image.height) + 0.5f) * perSite.y; };
+	block.siteTexture = {perSite.x, perSite.y, perSite.x / 2, firstRow(0)};
+	if (image.planes == 1) {
+		block.siteScale = {1, 0, firstRow(0), firstRow(0)};
 		return;
 	}
-	// A half plane holds every second texel of every second row: its texel i is the image's 2 i + where.
-	const glm::vec2 size(float(frame.width / 2), float(frame.height / 2)), red = redOf(frame.format);
-	const auto offset = [&](float x, float y) { return (0.5f - glm::vec2(x, y) / 2.0f) / size; };
-	const glm::vec2 r = offset(red.x, red.y), firstGreen = offset(1 - red.x, red.y);
-	const glm::vec2 secondGreen = offset(red.x, 1 - red.y), b = offset(1 - red.x, 1 - red.y);
-	block.plane = {0.5f / size.x, 0.5f / size.y, 1 - red.x, red.x};
-	block.planeOffset[0] = {r.x, r.y, firstGreen.x, firstGreen.y};
-	block.planeOffset[1] = {secondGreen.x, secondGreen.y, b.x, b.y};
+	// The middle of both greens is the middle of the cell.
+	const auto [redX, redY] = redOf(frame.format);
+	block.siteOffset[0] = {-float(redX) / 2, -float(redY) / 2, -0.25f, -0.25f};
+	block.siteOffset[1] = {-float(1 - redX) / 2, -float(1 - redY) / 2, 0, 0};
+	block.siteScale = {0.5f, 0, firstRow(1), firstRow(2)};
 }
 
 void describeCamera(shaders::EyeBlock &block, const CameraView &view)
 {
 	const float dark = float(view.blackLevel), range = 1 / std::max(1 - dark, 1e-3f);
 	block.colour = {view.whiteBalance[0] * range, view.whiteBalance[1] * range, view.whiteBalance[2] * range, dark};
-	describePlanes(block, view.frame);
+	describeSites(block, view.frame);
 }
 
 bool isFinite(const MatrixByBand &matrices)
@@ -101,7 +91,7 @@ shaders::EyeBlock eyeBlock(const EyeDraw &draw, uint32_t band, const MatrixByBan
 	const bool stale = view && draw.inputs.displayTime - view->frame.midExposure > staleAge;
 	if (view) {
 		describeCamera(block, *view);
-		block.weight.x = std::clamp(view->weight, 0.0f, 1.0f) * (stale ? staleWeight : 1.0f);
+		block.siteScale.y = std::clamp(view->weight, 0.0f, 1.0f) * (stale ? staleWeight : 1.0f);
 	}
 	const float hides = draw.inputs.blendMode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE ? 0.0f : 1.0f;
 	block.fill = glm::vec4(stale ? amber : calm, hides);
@@ -136,17 +126,15 @@ bool isOpaque(const PanelLayer &layer) { return !(layer.flags & XR_COMPOSITION_L
 shaders::LayerBlock layerBlock(const PanelLayer &layer, size_t eye, uint32_t band, const MatrixByBand &uv, uint32_t width, uint32_t height)
 {
 	const LayerTexture &texture = textureOf(layer, eye);
-	const glm::dvec2 size(width, height), corner(texture.rect.offset.x, texture.rect.offset.y);
-	const glm::dvec2 extent(texture.rect.extent.width, texture.rect.extent.height);
-	const glm::dvec2 least = (corner + 0.5) / size, most = (corner + extent - 0.5) / size;
+	const glm::dvec2 corner(texture.rect.offset.x, texture.rect.offset.y), extent(texture.rect.extent.width, texture.rect.extent.height);
+	const glm::dmat3 toTexel(extent.x, 0, 0, 0, extent.y, 0, corner.x - 0.5, corner.y - 0.5, 1);
+	MatrixByBand texel;
+	std::ranges::transform(uv, texel.begin(), [&](const glm::dmat3 &m) { return toTexel * m; });
 	const bool multiply = !isOpaque(layer) && (layer.flags & XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT);
 	shaders::LayerBlock block{};
-	block.uv = byLine(uv, band);
-	block.rect = {corner.x / size.x, corner.y / size.y, extent.x / size.x, extent.y / size.y};
-	block.inside = {least.x, least.y, most.x, most.y};
-	block.uv.first[0].w = float(texture.arrayIndex);
-	block.uv.first[1].w = isOpaque(layer) ? 0 : 1;
-	block.uv.first[2].w = multiply ? 1 : 0;
+	block.texel = byLine(texel, band);
+	block.bounds = {corner.x, corner.y, corner.x + extent.x - 1, corner.y + extent.y - 1};
+	block.mode = {1.0f / float(width), 1.0f / float(height), isOpaque(layer) ? 1 : 0, multiply ? 1 : 0};
 	return block;
 }
 

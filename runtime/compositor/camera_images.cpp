@@ -1,5 +1,4 @@
 #include "runtime/compositor/camera_images.h"
-#include <algorithm>
 #include <cstring>
 
 namespace arift
@@ -14,23 +13,6 @@ using Stage = vk::PipelineStageFlagBits;
 using Usage = vk::ImageUsageFlagBits;
 
 constexpr vk::ImageSubresourceRange whole{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
-
-class GpuFrameBuffer final : public FrameBuffer
-{
-public:
-	GpuFrameBuffer(const gpu::Device::Handles &gpu, size_t bytes)
-		: gpu_(gpu), buffer_(gpu, std::max<size_t>(bytes, 1), vk::BufferUsageFlagBits::eTransferSrc), size_(bytes)
-	{
-	}
-	std::span<std::byte> bytes() override { return buffer_.bytes.first(size_); }
-	bool isOf(const gpu::Device::Handles &gpu) const { return &gpu == &gpu_; }
-	vk::Buffer buffer() const { return *buffer_.buffer; }
-
-private:
-	const gpu::Device::Handles &gpu_;
-	gpu::Buffer buffer_;
-	size_t size_;
-};
 
 vk::ImageCreateInfo textureInfo(vk::Format format, uint32_t width, uint32_t height)
 {
@@ -66,11 +48,9 @@ void endCopy(const vk::raii::CommandBuffer &commands, vk::Image image)
 													whole});
 }
 
-/// `rowTexels` texels from row to row in the buffer.
-void copy(const vk::raii::CommandBuffer &commands, vk::Buffer buffer, vk::DeviceSize offset, uint32_t rowTexels, const Texture &texture)
+void copy(const vk::raii::CommandBuffer &commands, vk::Buffer buffer, const Texture &texture)
 {
-	const vk::BufferImageCopy region{
-		offset, rowTexels, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {texture.width, texture.height, 1}};
+	const vk::BufferImageCopy region{0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {texture.width, texture.height, 1}};
 	beginCopy(commands, *texture.image.image);
 	commands.copyBufferToImage(buffer, *texture.image.image, Layout::eTransferDstOptimal, region);
 	endCopy(commands, *texture.image.image);
@@ -87,9 +67,6 @@ Texture darkTexel(gpu::Device::Handles &gpu)
 	return texture;
 }
 
-/// Rows must begin at a whole texel of the textures: two bytes.
-uint32_t usableStride(const CameraFrame &frame) { return (frame.width * bytesPerPixel(frame.format) + 3) / 4 * 4; }
-
 } // namespace
 
 Texture::Texture(const gpu::Device::Handles &gpu, vk::Format format, uint32_t w, uint32_t h)
@@ -102,66 +79,29 @@ Texture::Texture(const gpu::Device::Handles &gpu, vk::Format format, uint32_t w,
 
 CameraImages::CameraImages(gpu::Device::Handles &gpu) : gpu_(gpu), nothing_(darkTexel(gpu)) {}
 
-FrameAllocator CameraImages::allocator(gpu::Device::Handles &gpu)
+void CameraImages::makeTexture(Eye &eye, const SiteImage &layout)
 {
-	return [&gpu](size_t bytes) { return std::make_shared<GpuFrameBuffer>(gpu, bytes); };
-}
-
-void CameraImages::makePlanes(Eye &eye, const CameraFrame &frame)
-{
-	eye.planes.clear();
-	eye.format = frame.format;
-	eye.width = frame.width;
-	eye.height = frame.height;
-	if (isBayer(frame.format))
-		for (int plane = 0; plane < 2; ++plane) eye.planes.emplace_back(gpu_, vk::Format::eR8G8Unorm, frame.width / 2, frame.height / 2);
-	else
-		eye.planes.emplace_back(gpu_, frame.format == PixelFormat::grey16 ? vk::Format::eR16Unorm : vk::Format::eR8Unorm, frame.width,
-								frame.height);
-}
-
-/// The buffer to copy from: the frame's own where it is ours, else one of ours with a copy of its rows.
-vk::Buffer CameraImages::source(Eye &eye, const CameraFrame &frame, uint32_t &stride)
-{
-	const auto *ours = dynamic_cast<const GpuFrameBuffer *>(frame.buffer.get());
-	if (ours && ours->isOf(gpu_) && frame.stride % 2 == 0) {
-		stride = frame.stride;
-		return ours->buffer();
-	}
-	stride = usableStride(frame);
-	const size_t size = size_t(stride) * frame.height, row = size_t(frame.width) * bytesPerPixel(frame.format);
-	if (!eye.staging || eye.staging->bytes.size() < size) eye.staging.emplace(gpu_, size, vk::BufferUsageFlagBits::eTransferSrc);
-	const std::span<const std::byte> bytes = frame.buffer->bytes();
-	for (uint32_t y = 0; y < frame.height; ++y)
-		std::memcpy(eye.staging->bytes.data() + size_t(y) * stride, bytes.data() + size_t(y) * frame.stride, row);
-	return *eye.staging->buffer;
+	eye.layout = layout;
+	eye.sites.emplace(gpu_, layout.bytesPerSite == 8 ? vk::Format::eR16G16B16A16Unorm : vk::Format::eR8G8B8A8Unorm, layout.width,
+					  layout.height * layout.planes);
+	eye.staging.emplace(gpu_, layout.bytes(), vk::BufferUsageFlagBits::eTransferSrc);
 }
 
 bool CameraImages::upload(const vk::raii::CommandBuffer &commands, size_t index, const CameraFrame &frame)
 {
 	Eye &eye = eyes_[index];
-	const bool other = eye.planes.empty() || eye.format != frame.format || eye.width != frame.width || eye.height != frame.height;
+	const SiteImage layout = siteImageOf(frame);
+	const bool other = !eye.sites || eye.layout != layout;
 	if (!other && eye.shownBuffer == frame.buffer.get() && eye.shownSequence == frame.sequence && eye.shownExposure == frame.midExposure)
 		return false;
-	if (other) makePlanes(eye, frame);
-	uint32_t stride = 0;
-	const vk::Buffer buffer = source(eye, frame, stride);
-	// Two lines of a Bayer image are one row of a half plane: as many texels of two bytes as a line has bytes.
-	const uint32_t rowTexels = isBayer(frame.format) ? stride : stride / bytesPerPixel(frame.format);
-	for (size_t plane = 0; plane < eye.planes.size(); ++plane) copy(commands, buffer, plane * stride, rowTexels, eye.planes[plane]);
+	if (other) makeTexture(eye, layout);
+	packSites(frame, eye.staging->bytes);
+	copy(commands, *eye.staging->buffer, *eye.sites);
 	eye.shownBuffer = frame.buffer.get();
 	eye.shownSequence = frame.sequence;
 	eye.shownExposure = frame.midExposure;
+	++uploads_;
 	return other;
-}
-
-std::array<vk::ImageView, 2> CameraImages::planes(size_t index) const
-{
-	const Eye &eye = eyes_[index];
-	if (eye.planes.empty()) return {nothing(), nothing()};
-	const vk::ImageView first = *eye.planes.front().view, last = *eye.planes.back().view;
-	const bool redBelow = eye.format == PixelFormat::bayerGbrg8 || eye.format == PixelFormat::bayerBggr8;
-	return redBelow ? std::array{last, first} : std::array{first, last};
 }
 
 Texture makeAngleTable(gpu::Device::Handles &gpu, const PanelOptics &optics, size_t camera)
@@ -171,7 +111,7 @@ Texture makeAngleTable(gpu::Device::Handles &gpu, const PanelOptics &optics, siz
 	Texture texture(gpu, vk::Format::eR32Sfloat, uint32_t(values.size()), 1);
 	const gpu::Buffer buffer(gpu, values.size() * sizeof(float), vk::BufferUsageFlagBits::eTransferSrc);
 	std::memcpy(buffer.bytes.data(), values.data(), buffer.bytes.size());
-	gpu.runOnce([&](const auto &commands) { copy(commands, *buffer.buffer, 0, uint32_t(values.size()), texture); });
+	gpu.runOnce([&](const auto &commands) { copy(commands, *buffer.buffer, texture); });
 	return texture;
 }
 

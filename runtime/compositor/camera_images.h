@@ -1,7 +1,7 @@
-// Camera images on the GPU: memory that drivers fill, and the textures they are copied to without passing the CPU again.
+// Camera images on the GPU, in the form in which the shader samples them.
 #pragma once
+#include "runtime/compositor/camera_sites.h"
 #include "runtime/compositor/panel_optics.h"
-#include "runtime/device/camera.h"
 #include "runtime/gpu/handles.h"
 
 namespace arift
@@ -15,44 +15,38 @@ struct Texture {
 	uint32_t width, height;
 };
 
-/// Each eye's newest camera image. Grey ones are one texture; Bayer ones two of half the width and height with two channels: the even and
-/// the odd lines of the sensor, whose neighbouring pixels are the channels. So each colour is sampled from its own lattice, and no pass is
-/// needed.
+/// Each eye's newest camera image: a texture of sites (camera_sites.h), so no pass over the whole image is needed.
 class CameraImages
 {
 public:
 	explicit CameraImages(gpu::Device::Handles &gpu);
 
-	/// Buffers whose bytes are copied from directly. They must be gone before the device is; thread-safe.
-	static FrameAllocator allocator(gpu::Device::Handles &gpu);
-
-	/// Records the copy of an image that is not the one this eye has already; says whether the eye's textures are others than before.
-	/// The frame's buffer must live until the commands have finished.
+	/// Packs an image that is not the one this eye has already and records its copy; says whether the eye's texture is another than before.
+	/// The frame is not needed any more afterwards.
 	bool upload(const vk::raii::CommandBuffer &commands, size_t eye, const CameraFrame &frame);
-	/// The textures to bind: of a Bayer image first the lines that hold red, then those that hold blue.
-	std::array<vk::ImageView, 2> planes(size_t eye) const;
-	/// A texture of one dark texel, for bindings that are not used.
-	vk::ImageView nothing() const { return *nothing_.view; }
+	/// Images uploaded so far.
+	uint64_t uploads() const { return uploads_; }
+	vk::ImageView sites(size_t eye) const { return eyes_[eye].sites ? *eyes_[eye].sites->view : *nothing_.view; }
 
 private:
 	struct Eye {
-		PixelFormat format{};
-		uint32_t width = 0, height = 0;
-		std::vector<Texture> planes;
-		std::optional<gpu::Buffer> staging; ///< for frames that lie in memory of somebody else
-		const FrameBuffer *shownBuffer = nullptr;
+		SiteImage layout;
+		std::optional<Texture> sites;
+		std::optional<gpu::Buffer> staging;
+		// The image the texture has: its buffer (to compare, not to use), its number and its time.
+		const void *shownBuffer = nullptr;
 		uint64_t shownSequence = 0;
 		XrTime shownExposure = 0;
 	};
-	void makePlanes(Eye &eye, const CameraFrame &frame);
-	vk::Buffer source(Eye &eye, const CameraFrame &frame, uint32_t &stride);
+	void makeTexture(Eye &eye, const SiteImage &layout);
 
 	gpu::Device::Handles &gpu_;
-	Texture nothing_;
+	Texture nothing_; ///< bound where there is no image
 	std::array<Eye, 2> eyes_;
+	uint64_t uploads_ = 0;
 };
 
-/// The radial tables of the cameras whose polynomials do not do (PanelOptics::cameraCoefficients == 0), else of one texel.
+/// The camera's table of G over the angle; one texel where the Rig needs none.
 Texture makeAngleTable(gpu::Device::Handles &gpu, const PanelOptics &optics, size_t camera);
 
 } // namespace arift

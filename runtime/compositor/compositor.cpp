@@ -18,9 +18,10 @@ Compositor::~Compositor()
 	thread_.join();
 }
 
-void Compositor::addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec, std::shared_ptr<const void> owner)
+void Compositor::addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec, std::shared_ptr<const void> owner,
+						  const gpu::ImageRows &rows)
 {
-	loop_->inbox.update([&](Loop::Inbox &box) { box.imageChanges.push_back({key, image, spec, std::move(owner)}); });
+	loop_->inbox.update([&](Loop::Inbox &box) { box.imageChanges.push_back({key, image, spec, rows, std::move(owner)}); });
 }
 
 void Compositor::removeImage(uint64_t key)

@@ -42,7 +42,8 @@ public:
 	Compositor(const Compositor &) = delete;
 
 	/// An application's image. `owner` keeps it alive until the compositor has let go of it after removeImage().
-	void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec, std::shared_ptr<const void> owner);
+	void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec, std::shared_ptr<const void> owner,
+				  const gpu::ImageRows &rows = {});
 	/// Layers that show the image are left out from the next panel image on.
 	void removeImage(uint64_t key);
 	/// Sources are shown in the order in which they were added, the first at the bottom; adding one again moves it to the top.

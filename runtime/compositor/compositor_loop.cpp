@@ -32,7 +32,7 @@ void Compositor::Loop::changeImages(std::vector<ImageChange> changes)
 	for (ImageChange &change : changes) {
 		if (change.image != VK_NULL_HANDLE) {
 			try {
-				panel_->addImage(change.key, change.image, change.spec);
+				panel_->addImage(change.key, change.image, change.spec, change.rows);
 				images_[change.key] = std::move(change.owner);
 			} catch (const std::exception &problem) {
 				log::error("an application's image cannot be shown: {}", problem.what()); // its layers are left out

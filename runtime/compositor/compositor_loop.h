@@ -18,6 +18,7 @@ public:
 		uint64_t key = 0;
 		VkImage image = VK_NULL_HANDLE; ///< null: remove
 		gpu::ImageSpec spec;
+		gpu::ImageRows rows;
 		std::shared_ptr<const void> owner;
 	};
 	struct Wanted {

@@ -1,5 +1,6 @@
 #include "runtime/compositor/drawing.h"
 #include "runtime/compositor/camera_cover.h"
+#include <algorithm>
 
 namespace arift
 {
@@ -16,22 +17,30 @@ bool lies(const LayerTexture &texture, const gpu::ImageSpec &spec)
 		   texture.arrayIndex < spec.arrayLayers;
 }
 
+/// A texel's light reaches into its neighbours.
+HasContent contentOf(const LayerTexture &texture, Occupancy *occupancy)
+{
+	if (!occupancy) return {};
+	return [rect = texture.rect, occupancy](glm::dvec2 least, glm::dvec2 most) {
+		const auto within = [](double place, int32_t offset, int32_t extent) { return offset + int(std::clamp(place, 0.0, 1.0) * extent); };
+		return occupancy->mayHaveContent(
+			{within(least.x, rect.offset.x, rect.extent.width) - 1, within(least.y, rect.offset.y, rect.extent.height) - 1,
+			 within(most.x, rect.offset.x, rect.extent.width) + 2, within(most.y, rect.offset.y, rect.extent.height) + 2});
+	};
+}
+
 /// What an eye sees behind the layers.
 PipelineKey backdropOf(const CameraView *camera, bool throughLens)
 {
 	if (!camera) return {.background = Background::pattern, .throughLens = throughLens};
-	const bool bayer = isBayer(camera->frame.format);
-	return {.background = bayer ? Background::bayer : Background::grey,
-			.camera = camera->lens,
-			.encoded = !camera->linear,
-			.throughLens = throughLens};
+	return {.background = Background::camera, .camera = camera->lens, .encoded = !camera->linear, .throughLens = throughLens};
 }
 
 class EyeDrawing
 {
 public:
-	EyeDrawing(Drawing &drawing, const EyeDraw &draw, const std::function<const gpu::ImageSpec *(uint64_t)> &specOf)
-		: drawing_(drawing), draw_(draw), specOf_(specOf), eyes_(eyesByBand(draw.inputs, draw.grid, draw.geometry.height))
+	EyeDrawing(Drawing &drawing, const EyeDraw &draw, const FindImage &findImage)
+		: drawing_(drawing), draw_(draw), findImage_(findImage), eyes_(eyesByBand(draw.inputs, draw.grid, draw.geometry.height))
 	{
 	}
 
@@ -45,6 +54,7 @@ public:
 		const size_t count = std::min(draw_.inputs.layers.size(), maxDrawnLayers);
 		planned_.resize(count);
 		blocks_.resize(count);
+		encoded_.resize(count);
 		for (size_t i = 0; i < count; ++i) addLayer(i);
 		const PipelineKey backdrop = backdropOf(camera, draw_.geometry.throughLens);
 		for (const TileDraw &tiles : planDraws(draw_.grid, draw_.inputs.blendMode, planned_, seen)) addItem(tiles, backdrop, firstEyeBlock);
@@ -68,12 +78,14 @@ private:
 		const auto matrices = layerMatrices(layer, draw_.eye, eyes_);
 		if (!matrices) return;
 		const LayerTexture &texture = textureOf(layer, draw_.eye);
-		const gpu::ImageSpec *spec = specOf_(texture.image);
-		if (!spec || !lies(texture, *spec)) return;
-		planned_[index] = {coverage(draw_.grid, *matrices), isOpaque(layer)};
+		const auto image = findImage_(texture);
+		if (!image || !lies(texture, *image->spec)) return;
+		const bool opaque = isOpaque(layer);
+		planned_[index] = {coverage(draw_.grid, *matrices, opaque ? HasContent{} : contentOf(texture, image->occupancy)), opaque};
+		encoded_[index] = gpu::storedFormat(VkFormat(image->spec->format)) != VkFormat(image->spec->format);
 		blocks_[index] = uint32_t(drawing_.layerBlocks.size());
 		for (uint32_t band = 0; band < bandCount; ++band)
-			drawing_.layerBlocks.push_back(layerBlock(layer, draw_.eye, band, *matrices, spec->width, spec->height));
+			drawing_.layerBlocks.push_back(layerBlock(layer, draw_.eye, band, *matrices, image->spec->width, image->spec->height));
 	}
 
 	void addItem(const TileDraw &tiles, const PipelineKey &backdrop, uint32_t firstEyeBlock)
@@ -86,7 +98,10 @@ private:
 		item.eyeBlock = firstEyeBlock + tiles.band;
 		if (tiles.layer >= 0) {
 			item.layerBlock = blocks_[size_t(tiles.layer)] + tiles.band;
-			item.image = textureOf(draw_.inputs.layers[size_t(tiles.layer)], draw_.eye).image;
+			const LayerTexture &texture = textureOf(draw_.inputs.layers[size_t(tiles.layer)], draw_.eye);
+			item.image = texture.image;
+			item.arrayIndex = texture.arrayIndex;
+			item.pipeline.layerEncoded = encoded_[size_t(tiles.layer)];
 		}
 		item.firstVertex = uint32_t(drawing_.vertices.size());
 		for (const PixelRect &rect : tiles.rects) {
@@ -99,21 +114,22 @@ private:
 
 	Drawing &drawing_;
 	const EyeDraw &draw_;
-	const std::function<const gpu::ImageSpec *(uint64_t)> &specOf_;
+	const FindImage &findImage_;
 	std::array<std::array<EyeAtLine, 2>, bandCount + 1> eyes_;
 	std::vector<PlannedLayer> planned_;
 	std::vector<uint32_t> blocks_; ///< by layer: its first block
+	std::vector<bool> encoded_;    ///< by layer: its texels are sRGB encoded
 };
 
 } // namespace
 
 Drawing makeDrawing(const PanelInputs &inputs, const PanelOptics &optics, const ViewGeometry &geometry,
-					const std::array<TileGrid, 2> &grids, const std::function<const gpu::ImageSpec *(uint64_t)> &specOf)
+					const std::array<TileGrid, 2> &grids, const FindImage &findImage)
 {
 	Drawing drawing;
 	for (size_t eye = 0; eye < 2; ++eye) {
 		const EyeDraw draw{inputs, optics, geometry, grids[eye], eye};
-		EyeDrawing(drawing, draw, specOf).make();
+		EyeDrawing(drawing, draw, findImage).make();
 	}
 	return drawing;
 }

@@ -1,6 +1,7 @@
 // The whole drawing of one image as data: what is drawn where, with which pipeline and which numbers. Pure.
 #pragma once
 #include "runtime/compositor/blocks.h"
+#include "runtime/compositor/occupancy.h"
 #include "runtime/compositor/pipelines.h"
 
 namespace arift
@@ -14,6 +15,7 @@ struct DrawItem {
 	uint32_t eyeBlock = 0;   ///< index into Drawing::eyeBlocks
 	uint32_t layerBlock = 0; ///< index into Drawing::layerBlocks, where the pipeline has a layer
 	uint64_t image = 0;      ///< the layer's
+	uint32_t arrayIndex = 0;
 	uint32_t firstVertex = 0, vertexCount = 0;
 };
 
@@ -24,8 +26,14 @@ struct Drawing {
 	std::vector<shaders::LayerBlock> layerBlocks;
 };
 
-/// `specOf`: what an image is; null for one that cannot be sampled. Layers whose image or rectangle is not there are left out.
+/// An image that can be sampled.
+struct KnownImage {
+	const gpu::ImageSpec *spec = nullptr;
+	Occupancy *occupancy = nullptr; ///< of the array layer asked for; null where nobody can look
+};
+using FindImage = std::function<std::optional<KnownImage>(const LayerTexture &)>;
+/// Layers whose image or rectangle is not there are left out, and tiles where a layer has no content.
 Drawing makeDrawing(const PanelInputs &inputs, const PanelOptics &optics, const ViewGeometry &geometry,
-					const std::array<TileGrid, 2> &grids, const std::function<const gpu::ImageSpec *(uint64_t)> &specOf);
+					const std::array<TileGrid, 2> &grids, const FindImage &findImage);
 
 } // namespace arift

@@ -10,19 +10,29 @@ using Access = vk::AccessFlagBits;
 using Layout = vk::ImageLayout;
 using Stage = vk::PipelineStageFlagBits;
 
-/// Every layer, the largest mip level alone: views are near their size on the panel.
-constexpr vk::ImageSubresourceRange sampled{vk::ImageAspectFlagBits::eColor, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS};
 constexpr vk::ImageSubresourceRange whole{vk::ImageAspectFlagBits::eColor, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
 
-vk::raii::DescriptorPool poolForOneSet(const gpu::Device::Handles &gpu)
+vk::raii::DescriptorPool poolFor(const gpu::Device::Handles &gpu, uint32_t sets)
 {
-	const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, 1};
-	return {gpu.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size}};
+	const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, sets};
+	return {gpu.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, sets, size}};
 }
 
-vk::raii::DescriptorSet allocate(const gpu::Device::Handles &gpu, const vk::raii::DescriptorPool &pool, vk::DescriptorSetLayout layout)
+/// One array layer, its largest mip level alone: views are near their size on the panel.
+vk::raii::ImageView viewOf(const gpu::Device::Handles &gpu, VkImage image, const gpu::ImageSpec &spec, uint32_t layer)
 {
-	return std::move(vk::raii::DescriptorSets(gpu.device, {*pool, layout}).front());
+	const auto format = vk::Format(gpu::storedFormat(VkFormat(spec.format)));
+	return {gpu.device, {{}, image, vk::ImageViewType::e2D, format, {}, {vk::ImageAspectFlagBits::eColor, 0, 1, layer, 1}}};
+}
+
+std::vector<Occupancy> occupancyOf(const gpu::ImageSpec &spec, const gpu::ImageRows &rows)
+{
+	std::vector<Occupancy> occupancy;
+	const size_t texel = gpu::bytesPerTexel(VkFormat(spec.format));
+	if (rows.first && texel > 0)
+		for (uint32_t layer = 0; layer < spec.arrayLayers; ++layer)
+			occupancy.emplace_back(rows.first + layer * rows.layerPitch, rows.rowPitch, texel, spec.width, spec.height);
+	return occupancy;
 }
 
 } // namespace
@@ -32,22 +42,38 @@ LayerImages::LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layo
 {
 }
 
-void LayerImages::add(uint64_t key, VkImage image, const gpu::ImageSpec &spec)
+void LayerImages::add(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows)
 {
-	const auto format = VkFormat(spec.format);
-	if (gpu::isDepth(format) || spec.samples != 1) return;
-	vk::raii::ImageView view(gpu_.device, {{}, image, vk::ImageViewType::e2DArray, vk::Format(format), {}, sampled});
-	vk::raii::DescriptorPool pool = poolForOneSet(gpu_);
-	vk::raii::DescriptorSet set = allocate(gpu_, pool, layout_);
-	const vk::DescriptorImageInfo texture{sampler_, *view, Layout::eShaderReadOnlyOptimal};
-	gpu_.device.updateDescriptorSets(vk::WriteDescriptorSet{*set, 0, 0, vk::DescriptorType::eCombinedImageSampler, texture}, {});
-	images_.insert_or_assign(key, Entry{image, spec, std::move(view), std::move(pool), std::move(set)});
+	if (gpu::isDepth(VkFormat(spec.format)) || spec.samples != 1) return;
+	Entry entry{image, spec, {}, poolFor(gpu_, spec.arrayLayers), {}, occupancyOf(spec, rows)};
+	const std::vector layouts(spec.arrayLayers, layout_);
+	vk::raii::DescriptorSets sets(gpu_.device, {*entry.pool, layouts});
+	entry.sets.assign(std::make_move_iterator(sets.begin()), std::make_move_iterator(sets.end()));
+	for (uint32_t layer = 0; layer < spec.arrayLayers; ++layer) {
+		const auto &view = entry.views.emplace_back(viewOf(gpu_, image, spec, layer));
+		const vk::DescriptorImageInfo texture{sampler_, *view, Layout::eShaderReadOnlyOptimal};
+		gpu_.device.updateDescriptorSets(
+			vk::WriteDescriptorSet{*entry.sets[layer], 0, 0, vk::DescriptorType::eCombinedImageSampler, texture}, {});
+	}
+	images_.insert_or_assign(key, std::move(entry));
 }
 
 const LayerImages::Entry *LayerImages::find(uint64_t key) const
 {
 	const auto found = images_.find(key);
 	return found == images_.end() ? nullptr : &found->second;
+}
+
+std::optional<KnownImage> LayerImages::find(const LayerTexture &texture)
+{
+	const auto found = images_.find(texture.image);
+	if (found == images_.end()) return std::nullopt;
+	Entry &entry = found->second;
+	if (texture.arrayIndex >= entry.occupancy.size()) return KnownImage{&entry.spec};
+	if (texture.content == 0 || texture.content != entry.content)
+		for (Occupancy &layer : entry.occupancy) layer.forget();
+	entry.content = texture.content;
+	return KnownImage{&entry.spec, &entry.occupancy[texture.arrayIndex]};
 }
 
 void LayerImages::acquire(const vk::raii::CommandBuffer &commands, std::span<const Entry *const> entries) const

@@ -1,5 +1,6 @@
 // Applications' images as the renderer samples them.
 #pragma once
+#include "runtime/compositor/drawing.h"
 #include "runtime/gpu/handles.h"
 #include <unordered_map>
 
@@ -9,21 +10,26 @@ namespace arift
 class LayerImages
 {
 public:
-	/// Every image gets a descriptor set of `layout`.
+	/// Every array layer of every image gets a descriptor set of `layout`.
 	LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layout, vk::Sampler sampler);
 
-	void add(uint64_t key, VkImage image, const gpu::ImageSpec &spec);
+	/// `rows`: where a CPU finds the texels, if anywhere; they are looked at by find() alone.
+	void add(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows);
 	void remove(uint64_t key) { images_.erase(key); }
 
 	struct Entry {
 		vk::Image image;
 		gpu::ImageSpec spec;
-		vk::raii::ImageView view;
+		std::vector<vk::raii::ImageView> views;
 		vk::raii::DescriptorPool pool;
-		vk::raii::DescriptorSet set;
+		std::vector<vk::raii::DescriptorSet> sets; ///< by array layer
+		std::vector<Occupancy> occupancy;          ///< by array layer; empty where the image does not lie in rows
+		uint64_t content = 0;                      ///< LayerTexture::content of what the occupancies know
 	};
 	/// Null: unknown, or nothing that can be sampled (depth).
 	const Entry *find(uint64_t key) const;
+	/// What a layer shows, with what is known of its content.
+	std::optional<KnownImage> find(const LayerTexture &texture);
 
 	/// Takes the images over from their application for sampling, and gives them back.
 	void acquire(const vk::raii::CommandBuffer &commands, std::span<const Entry *const> entries) const;

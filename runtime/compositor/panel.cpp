@@ -15,7 +15,10 @@ public:
 	{
 	}
 
-	void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec) override { renderer_.addImage(key, image, spec); }
+	void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows) override
+	{
+		renderer_.addImage(key, image, spec, rows);
+	}
 	void removeImage(uint64_t key) override { renderer_.removeImage(key); }
 	void render(const PanelInputs &inputs) override { renderer_.render(inputs); }
 	PanelRenderer::Cost cost() const override { return renderer_.cost(); }

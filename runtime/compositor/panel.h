@@ -11,7 +11,7 @@ class Panel
 {
 public:
 	virtual ~Panel() = default;
-	virtual void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec) = 0;
+	virtual void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows) = 0;
 	virtual void removeImage(uint64_t key) = 0;
 	/// Draws, and waits until the image is finished.
 	virtual void render(const PanelInputs &inputs) = 0;

@@ -31,7 +31,8 @@ struct ViewAtLine {
 struct LayerTexture {
 	uint64_t image = 0; ///< key of an image the renderer has been told of (PanelRenderer::addImage)
 	uint32_t arrayIndex = 0;
-	XrRect2Di rect{}; ///< texels
+	XrRect2Di rect{};     ///< texels
+	uint64_t content = 0; ///< another number when the image may have been drawn anew; 0: it may have been, every time
 };
 
 /// One layer as one eye sees it.

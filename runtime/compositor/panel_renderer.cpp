@@ -11,7 +11,9 @@ namespace arift
 namespace
 {
 
+using Access = vk::AccessFlagBits;
 using Layout = vk::ImageLayout;
+using Stage = vk::PipelineStageFlagBits;
 using Type = vk::DescriptorType;
 using Usage = vk::ImageUsageFlagBits;
 
@@ -19,7 +21,7 @@ constexpr vk::ImageSubresourceRange whole{vk::ImageAspectFlagBits::eColor, 0, 1,
 
 /// An image that is drawn, with what is needed to plan its drawing.
 struct Canvas {
-	Canvas(const gpu::Device::Handles &gpu, const PanelOptics &optics, ViewGeometry view_, vk::Format format, vk::RenderPass renderPass)
+	Canvas(gpu::Device::Handles &gpu, const PanelOptics &optics, ViewGeometry view_, vk::Format format, vk::RenderPass renderPass)
 		: geometry(view_),
 		  grids{makeGrid(optics, geometry, 0), makeGrid(optics, geometry, 1)},
 		  image(gpu, {{},
@@ -30,10 +32,11 @@ struct Canvas {
 					  1,
 					  vk::SampleCountFlagBits::e1,
 					  vk::ImageTiling::eOptimal,
-					  Usage::eColorAttachment | Usage::eTransferSrc}),
+					  Usage::eColorAttachment | Usage::eTransferSrc | Usage::eTransferDst}),
 		  view(gpu.device, {{}, *image.image, vk::ImageViewType::e2D, format, {}, whole}),
 		  framebuffer(gpu.device, {{}, renderPass, *view, geometry.width, geometry.height, 1})
 	{
+		blacken(gpu);
 	}
 	ViewGeometry geometry;
 	std::array<TileGrid, 2> grids;
@@ -41,6 +44,23 @@ struct Canvas {
 	vk::raii::ImageView view;
 	vk::raii::Framebuffer framebuffer;
 	vk::Extent2D extent() const { return {geometry.width, geometry.height}; }
+
+private:
+	/// Once: what lies outside the lens circle is never drawn, all that lies inside is, every time.
+	void blacken(gpu::Device::Handles &gpu) const
+	{
+		const auto change = [&](vk::AccessFlags done, vk::AccessFlags next, Layout from, Layout to) {
+			return vk::ImageMemoryBarrier{done, next, from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.image, whole};
+		};
+		gpu.runOnce([&](const vk::raii::CommandBuffer &commands) {
+			commands.pipelineBarrier(Stage::eTopOfPipe, Stage::eTransfer, {}, {}, {},
+									 change({}, Access::eTransferWrite, Layout::eUndefined, Layout::eTransferDstOptimal));
+			commands.clearColorImage(*image.image, Layout::eTransferDstOptimal, vk::ClearColorValue(std::array{0.0f, 0.0f, 0.0f, 1.0f}),
+									 whole);
+			commands.pipelineBarrier(Stage::eTransfer, Stage::eBottomOfPipe, {}, {}, {},
+									 change(Access::eTransferWrite, {}, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal));
+		});
+	}
 };
 
 /// Blocks of one kind in a uniform buffer, each at an offset the device allows.
@@ -65,17 +85,11 @@ private:
 	gpu::Buffer buffer_;
 };
 
-vk::raii::Sampler makeSampler(const gpu::Device::Handles &gpu)
+vk::raii::Sampler makeSampler(const gpu::Device::Handles &gpu, vk::Filter filter)
 {
 	using Address = vk::SamplerAddressMode;
 	return {gpu.device,
-			{{},
-			 vk::Filter::eLinear,
-			 vk::Filter::eLinear,
-			 vk::SamplerMipmapMode::eNearest,
-			 Address::eClampToEdge,
-			 Address::eClampToEdge,
-			 Address::eClampToEdge}};
+			{{}, filter, filter, vk::SamplerMipmapMode::eNearest, Address::eClampToEdge, Address::eClampToEdge, Address::eClampToEdge}};
 }
 
 /// A set for every eye and band, as makeDrawing() numbers its eye blocks.
@@ -84,7 +98,7 @@ constexpr uint32_t eyeSetCount = 2 * bandCount;
 vk::raii::DescriptorPool makePool(const gpu::Device::Handles &gpu)
 {
 	const std::array sizes{vk::DescriptorPoolSize{Type::eUniformBuffer, eyeSetCount},
-						   vk::DescriptorPoolSize{Type::eCombinedImageSampler, 3 * eyeSetCount}};
+						   vk::DescriptorPoolSize{Type::eCombinedImageSampler, 2 * eyeSetCount}};
 	return {gpu.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, eyeSetCount, sizes}};
 }
 
@@ -113,7 +127,7 @@ struct PanelRenderer::Implementation {
 	void record(Canvas &canvas, const PanelInputs &inputs, const Drawing &drawing);
 	void drawItems(const Drawing &drawing) const;
 	void uploadCameras(const PanelInputs &inputs);
-	void bindPlanes(size_t eye);
+	void bindTextures(size_t eye);
 	std::vector<const LayerImages::Entry *> imagesOf(const Drawing &drawing) const;
 	void writeVertices(const Drawing &drawing);
 	ReadbackImage read(const Canvas &canvas);
@@ -123,7 +137,7 @@ struct PanelRenderer::Implementation {
 	VkFormat format;
 	Pipelines pipelines;
 	Canvas panel, eyes;
-	vk::raii::Sampler sampler;
+	vk::raii::Sampler linear, nearest;
 	BlockBuffer<shaders::EyeBlock> eyeBlocks;
 	std::optional<gpu::Buffer> vertices;
 	CameraImages cameraImages;
@@ -148,31 +162,29 @@ PanelRenderer::Implementation::Implementation(gpu::Device &device, const Rig &ri
 	  pipelines(gpu, vk::Format(format), optics),
 	  panel(gpu, optics, panelGeometry(optics), vk::Format(format), pipelines.renderPass()),
 	  eyes(gpu, optics, eyesGeometry(optics), vk::Format(format), pipelines.renderPass()),
-	  sampler(makeSampler(gpu)),
+	  linear(makeSampler(gpu, vk::Filter::eLinear)),
+	  nearest(makeSampler(gpu, vk::Filter::eNearest)),
 	  eyeBlocks(gpu, eyeSetCount),
 	  cameraImages(gpu),
 	  angleTables{makeAngleTable(gpu, optics, 0), makeAngleTable(gpu, optics, 1)},
 	  noLayer(device, oneTexel()),
-	  layerImages(gpu, pipelines.layerSetLayout(), *sampler),
+	  layerImages(gpu, pipelines.layerSetLayout(), *linear),
 	  pool(makePool(gpu)),
 	  eyeSets(makeSets(gpu, pool, pipelines)),
 	  commandPool(gpu.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, gpu.queueFamily}),
 	  commandBuffers(gpu.device, {*commandPool, vk::CommandBufferLevel::ePrimary, 1}),
 	  fence(gpu.device, vk::FenceCreateInfo{})
 {
-	layerImages.add(noImage, noLayer.image(), noLayer.spec());
+	layerImages.add(noImage, noLayer.image(), noLayer.spec(), {});
 	gpu.runOnce([&](const auto &setUp) { layerImages.acquire(setUp, std::array{layerImages.find(noImage)}); });
-	for (size_t eye = 0; eye < 2; ++eye) bindPlanes(eye);
+	for (size_t eye = 0; eye < 2; ++eye) bindTextures(eye);
 }
 
 /// Nothing is drawing: every draw is waited for.
-void PanelRenderer::Implementation::bindPlanes(size_t eye)
+void PanelRenderer::Implementation::bindTextures(size_t eye)
 {
-	const auto planes = cameraImages.planes(eye);
-	std::array<vk::DescriptorImageInfo, 3> images;
-	images[0] = {*sampler, planes[0], Layout::eShaderReadOnlyOptimal};
-	images[1] = {*sampler, planes[1], Layout::eShaderReadOnlyOptimal};
-	images[2] = {*sampler, *angleTables[lensOf[eye]].view, Layout::eShaderReadOnlyOptimal};
+	const std::array images{vk::DescriptorImageInfo{*nearest, cameraImages.sites(eye), Layout::eShaderReadOnlyOptimal},
+							vk::DescriptorImageInfo{*linear, *angleTables[lensOf[eye]].view, Layout::eShaderReadOnlyOptimal}};
 	for (uint32_t index = uint32_t(eye) * bandCount; index < (eye + 1) * bandCount; ++index) {
 		const vk::DescriptorBufferInfo block{eyeBlocks.buffer(), eyeBlocks.offset(index), sizeof(shaders::EyeBlock)};
 		gpu.device.updateDescriptorSets({vk::WriteDescriptorSet{*eyeSets[index], 0, 0, Type::eUniformBuffer, {}, block},
@@ -189,7 +201,7 @@ void PanelRenderer::Implementation::uploadCameras(const PanelInputs &inputs)
 		const uint32_t lens = std::min(camera->lens, 1u);
 		const bool otherTable = lensOf[eye] != lens;
 		lensOf[eye] = lens;
-		if (cameraImages.upload(commands(), eye, camera->frame) || otherTable) bindPlanes(eye);
+		if (cameraImages.upload(commands(), eye, camera->frame) || otherTable) bindTextures(eye);
 	}
 }
 
@@ -220,7 +232,8 @@ void PanelRenderer::Implementation::drawItems(const Drawing &drawing) const
 	for (const DrawItem &item : drawing.items) {
 		const LayerImages::Entry *layer = item.pipeline.layer ? layerImages.find(item.image) : none;
 		commands().bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines.at(item.pipeline));
-		commands().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0, {*eyeSets[item.eyeBlock], *layer->set}, {});
+		commands().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0,
+									  {*eyeSets[item.eyeBlock], *layer->sets[item.arrayIndex]}, {});
 		const shaders::LayerBlock &block = item.pipeline.layer ? drawing.layerBlocks[item.layerBlock] : unused;
 		commands().pushConstants<shaders::LayerBlock>(pipelines.layout(), vk::ShaderStageFlagBits::eVertex, 0, block);
 		commands().draw(item.vertexCount, 1, item.firstVertex, 0);
@@ -233,13 +246,12 @@ void PanelRenderer::Implementation::record(Canvas &canvas, const PanelInputs &in
 	writeVertices(drawing);
 	const auto entries = imagesOf(drawing);
 	const vk::Extent2D extent = canvas.extent();
-	const vk::ClearValue black{vk::ClearColorValue(std::array{0.0f, 0.0f, 0.0f, 1.0f})};
 	commands().begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
 	const XrTime uploading = realTime();
 	uploadCameras(inputs);
 	cost.upload = inSeconds(realTime() - uploading);
 	layerImages.acquire(commands(), entries);
-	commands().beginRenderPass({pipelines.renderPass(), *canvas.framebuffer, {{}, extent}, black}, vk::SubpassContents::eInline);
+	commands().beginRenderPass({pipelines.renderPass(), *canvas.framebuffer, {{}, extent}, {}}, vk::SubpassContents::eInline);
 	commands().setViewport(0, vk::Viewport{0, 0, float(extent.width), float(extent.height), 0, 1});
 	commands().setScissor(0, vk::Rect2D{{}, extent});
 	drawItems(drawing);
@@ -251,11 +263,8 @@ void PanelRenderer::Implementation::record(Canvas &canvas, const PanelInputs &in
 void PanelRenderer::Implementation::draw(Canvas &canvas, const PanelInputs &inputs)
 {
 	const XrTime begin = realTime();
-	const auto specOf = [&](uint64_t key) {
-		const LayerImages::Entry *entry = layerImages.find(key);
-		return entry ? &entry->spec : nullptr;
-	};
-	const Drawing drawing = makeDrawing(inputs, optics, canvas.geometry, canvas.grids, specOf);
+	const auto findImage = [&](const LayerTexture &texture) { return layerImages.find(texture); };
+	const Drawing drawing = makeDrawing(inputs, optics, canvas.geometry, canvas.grids, findImage);
 	const XrTime planned = realTime();
 	record(canvas, inputs, drawing);
 	const XrTime recorded = realTime();
@@ -286,11 +295,9 @@ PanelRenderer::PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat forma
 
 PanelRenderer::~PanelRenderer() = default;
 
-FrameAllocator PanelRenderer::frameAllocator() { return CameraImages::allocator(implementation_->gpu); }
-
-void PanelRenderer::addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec)
+void PanelRenderer::addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows)
 {
-	implementation_->layerImages.add(key, image, spec);
+	implementation_->layerImages.add(key, image, spec, rows);
 }
 
 void PanelRenderer::removeImage(uint64_t key) { implementation_->layerImages.remove(key); }

@@ -29,10 +29,9 @@ public:
 	PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat format = VK_FORMAT_R8G8B8A8_SRGB);
 	~PanelRenderer();
 
-	/// Memory for camera images that the GPU reads without a copy on the CPU.
-	FrameAllocator frameAllocator();
 	/// An application's image. It must be in its boundary layout, owned by VK_QUEUE_FAMILY_EXTERNAL, whenever render() is given it.
-	void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec);
+	/// Where a CPU finds its texels in `rows`, parts without content are left out.
+	void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows = {});
 	void removeImage(uint64_t key);
 
 	/// Draws and waits until the GPU is done (bounded by gpu::Device::Handles::patience: throws std::runtime_error). The result stays in

@@ -20,11 +20,11 @@ vk::raii::RenderPass makeRenderPass(const gpu::Device::Handles &gpu, vk::Format 
 	const vk::AttachmentDescription colour{{},
 										   format,
 										   vk::SampleCountFlagBits::e1,
-										   vk::AttachmentLoadOp::eClear,
+										   vk::AttachmentLoadOp::eLoad,
 										   vk::AttachmentStoreOp::eStore,
 										   vk::AttachmentLoadOp::eDontCare,
 										   vk::AttachmentStoreOp::eDontCare,
-										   Layout::eUndefined,
+										   Layout::eTransferSrcOptimal,
 										   Layout::eTransferSrcOptimal};
 	const vk::AttachmentReference reference{0, Layout::eColorAttachmentOptimal};
 	const vk::SubpassDescription subpass{{}, vk::PipelineBindPoint::eGraphics, {}, reference};
@@ -64,7 +64,7 @@ struct Constants {
 	int32_t distortionCoefficients, cameraCoefficients;
 	VkBool32 tangential;
 	int32_t background;
-	VkBool32 encoded, layer, throughLens, redItself;
+	VkBool32 encoded, layer, throughLens, redItself, layerEncoded;
 	PanelNumbers numbers;
 };
 
@@ -78,6 +78,7 @@ Constants constantsFor(const PanelOptics &optics, const ViewGeometry &geometry, 
 			key.layer,
 			key.throughLens,
 			optics.redItself,
+			key.layerEncoded,
 			numbersFor(optics, geometry, key.camera)};
 }
 
@@ -143,9 +144,8 @@ std::vector<PipelineKey> backdrops(const PanelOptics &optics, bool throughLens)
 	std::vector<PipelineKey> keys{{.background = Background::pattern, .throughLens = throughLens},
 								  {.background = Background::unseen, .throughLens = throughLens}};
 	for (uint32_t camera = 0; camera < optics.cameras.size(); ++camera)
-		for (const Background background : {Background::grey, Background::bayer})
-			for (const bool encoded : {false, true})
-				keys.push_back({.background = background, .camera = camera, .encoded = encoded, .throughLens = throughLens});
+		for (const bool encoded : {false, true})
+			keys.push_back({.background = Background::camera, .camera = camera, .encoded = encoded, .throughLens = throughLens});
 	return keys;
 }
 
@@ -156,13 +156,19 @@ std::vector<PipelineKey> everyKey(const PanelOptics &optics)
 	for (const bool throughLens : {true, false}) {
 		for (PipelineKey key : backdrops(optics, throughLens)) {
 			keys.push_back(key);
-			key.layer = true;
-			keys.push_back(key);
-			key.layer = false;
 			key.blend = Blend::add;
 			keys.push_back(key);
+			key.blend = Blend::replace;
+			key.layer = true;
+			for (const bool layerEncoded : {false, true}) {
+				key.layerEncoded = layerEncoded;
+				keys.push_back(key);
+			}
 		}
-		for (const Blend blend : {Blend::replace, Blend::over}) keys.push_back({.blend = blend, .layer = true, .throughLens = throughLens});
+		for (const Blend blend : {Blend::replace, Blend::over})
+			for (const bool layerEncoded : {false, true})
+				keys.push_back({.blend = blend, .layer = true, .layerEncoded = layerEncoded, .throughLens = throughLens});
+		keys.push_back({.throughLens = throughLens});
 	}
 	return keys;
 }
@@ -171,8 +177,7 @@ std::vector<PipelineKey> everyKey(const PanelOptics &optics)
 
 Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const PanelOptics &optics)
 	: renderPass_(makeRenderPass(gpu, format)),
-	  eyeSetLayout_(makeSetLayout(
-		  gpu, std::array{Type::eUniformBuffer, Type::eCombinedImageSampler, Type::eCombinedImageSampler, Type::eCombinedImageSampler})),
+	  eyeSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBuffer, Type::eCombinedImageSampler, Type::eCombinedImageSampler})),
 	  layerSetLayout_(makeSetLayout(gpu, std::array{Type::eCombinedImageSampler})),
 	  layout_(makeLayout(gpu, *eyeSetLayout_, *layerSetLayout_))
 {

@@ -9,7 +9,7 @@ namespace arift
 {
 
 /// The shader's `background` constant.
-enum class Background : uint32_t { none, pattern, grey, bayer, unseen };
+enum class Background : uint32_t { none, pattern, camera, unseen };
 
 struct PipelineKey {
 	Blend blend = Blend::replace;
@@ -17,6 +17,7 @@ struct PipelineKey {
 	uint32_t camera = 0;  ///< whose lens; 0 without a camera
 	bool encoded = false; ///< the camera's values are sRGB encoded
 	bool layer = false;
+	bool layerEncoded = false; ///< its texels are sRGB encoded
 	bool throughLens = true;
 	auto operator<=>(const PipelineKey &) const = default;
 };
@@ -28,7 +29,7 @@ public:
 
 	vk::RenderPass renderPass() const { return *renderPass_; }
 	vk::PipelineLayout layout() const { return *layout_; }
-	/// Set 0: eye block, camera planes, angle table. Set 1: layer image. Push constants: layer block.
+	/// Set 0: eye block, camera image, angle table. Set 1: layer image. Push constants: layer block.
 	vk::DescriptorSetLayout eyeSetLayout() const { return *eyeSetLayout_; }
 	vk::DescriptorSetLayout layerSetLayout() const { return *layerSetLayout_; }
 	vk::Pipeline at(const PipelineKey &key) const { return *pipelines_.at(key); }

@@ -1,4 +1,5 @@
 #include "runtime/compositor/tiles.h"
+#include "runtime/compositor/block_set.h"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -21,8 +22,9 @@ std::array<int, 2> circleColumns(const PixelRect &area, glm::dvec2 centre, doubl
 	const double nearest = std::clamp(centre.y, double(y0), double(y1)) - centre.y;
 	if (std::abs(nearest) >= radius) return {area.x0, area.x0};
 	const double half = std::sqrt(radius * radius - nearest * nearest);
-	return {std::max(area.x0, int(std::floor(std::max(centre.x - half, double(area.x0))))),
-			std::min(area.x1, int(std::ceil(std::min(centre.x + half, double(area.x1)))))};
+	const double first = (centre.x - half - area.x0) / BlockSet::width, last = (centre.x + half - area.x0) / BlockSet::width;
+	return {area.x0 + std::max(0, int(std::floor(first)) * BlockSet::width),
+			std::min(area.x1, area.x0 + int(std::ceil(last)) * BlockSet::width)};
 }
 
 /// What a layer's coordinates do at one corner, over all colours.
@@ -44,13 +46,14 @@ struct Reach {
 		front |= other.front;
 		behind |= other.behind;
 	}
-	Cover cover() const
+	Cover cover(const HasContent &hasContent) const
 	{
 		if (!front) return Cover::none;
 		if (behind) return Cover::partly;
 		const glm::dvec2 margin = (most - least) * bulge + 1e-6;
 		const glm::dvec2 low = least - margin, high = most + margin;
 		if (low.x > 1 || low.y > 1 || high.x < 0 || high.y < 0) return Cover::none;
+		if (hasContent && !hasContent(low, high)) return Cover::none;
 		return low.x > 0 && low.y > 0 && high.x < 1 && high.y < 1 ? Cover::fully : Cover::partly;
 	}
 };
@@ -70,31 +73,29 @@ std::vector<Reach> reachOfCorners(const TileGrid &grid, const MatrixByBand &uvMa
 	return reach;
 }
 
-/// Collects rectangles by what draws them; neighbours in a row become one.
+/// Collects tiles by what draws them, and cuts them into rectangles.
 class Plan
 {
 public:
-	void add(Blend blend, Behind behind, int layer, uint32_t band, const PixelRect &rect)
+	explicit Plan(const TileGrid &grid) : grid_(grid) {}
+	void add(Blend blend, Behind behind, int layer, uint32_t band, const PixelRect &tile)
 	{
 		// The bottom-most of a tile first, then layers upwards, then light that is added to all of them.
-		auto &rects = byDraw_[{blend, blend == Blend::over ? layer : 0, band, layer, behind}];
-		if (!rects.empty() && rects.back().y0 == rect.y0 && rects.back().x1 == rect.x0)
-			rects.back().x1 = rect.x1;
-		else
-			rects.push_back(rect);
+		byDraw_.try_emplace({blend, blend == Blend::over ? layer : 0, band, layer, behind}, grid_.area()).first->second.add(tile);
 	}
 	std::vector<TileDraw> draws()
 	{
 		std::vector<TileDraw> draws;
-		for (auto &[key, rects] : byDraw_) {
+		for (auto &[key, blocks] : byDraw_) {
 			const auto &[blend, order, band, layer, behind] = key;
-			draws.push_back({blend, behind, layer, band, std::move(rects)});
+			draws.push_back({blend, behind, layer, band, blocks.takeRects()});
 		}
 		return draws;
 	}
 
 private:
-	std::map<std::tuple<Blend, int, uint32_t, int, Behind>, std::vector<PixelRect>> byDraw_;
+	const TileGrid &grid_;
+	std::map<std::tuple<Blend, int, uint32_t, int, Behind>, BlockSet> byDraw_;
 };
 
 } // namespace
@@ -132,7 +133,7 @@ PixelRect TileGrid::tile(int column, int row) const
 	return {std::max(x, first), y, std::min(x + tileWidth, last), std::min(y + tileHeight, area_.y1)};
 }
 
-std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix)
+std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, const HasContent &hasContent)
 {
 	const auto corners = reachOfCorners(grid, uvMatrix);
 	const auto at = [&](int column, int row) -> const Reach & {
@@ -146,7 +147,7 @@ std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix)
 			tile.add(at(column + 1, row));
 			tile.add(at(column, row + 1));
 			tile.add(at(column + 1, row + 1));
-			cover.push_back(tile.cover());
+			cover.push_back(tile.cover(hasContent));
 		}
 	return cover;
 }
@@ -155,7 +156,7 @@ std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode ble
 								const std::vector<bool> &seen)
 {
 	const bool environment = blendMode != XR_ENVIRONMENT_BLEND_MODE_OPAQUE, additive = blendMode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
-	Plan plan;
+	Plan plan(grid);
 	std::vector<int> here;
 	const auto addTile = [&](int column, int row) {
 		const PixelRect rect = grid.tile(column, row);
@@ -175,8 +176,7 @@ std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode ble
 		const bool later = additive && here.size() > 1;
 		const uint32_t band = grid.bandOf(row);
 		const Behind behind = seen.empty() || seen[index] ? Behind::camera : Behind::unseen;
-		if (backdrop || !here.empty())
-			plan.add(Blend::replace, backdrop && !later ? behind : Behind::nothing, here.empty() ? -1 : here.front(), band, rect);
+		plan.add(Blend::replace, backdrop && !later ? behind : Behind::nothing, here.empty() ? -1 : here.front(), band, rect);
 		for (size_t i = 1; i < here.size(); ++i) plan.add(Blend::over, Behind::nothing, here[i], band, rect);
 		if (later) plan.add(Blend::add, behind, -1, band, rect);
 	};

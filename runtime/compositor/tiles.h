@@ -2,6 +2,7 @@
 // branching in the shader does not help it. Pure functions.
 #pragma once
 #include "runtime/base/xr.h"
+#include "runtime/compositor/block_set.h"
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -13,11 +14,6 @@
 namespace arift
 {
 
-/// Pixels, x1 and y1 excluded.
-struct PixelRect {
-	int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
-
 /// An eye's image is drawn in bands of lines; within one, matrices change linearly. Two bands keep the chord within 0.02 px of the arc at
 /// 200 °/s.
 constexpr uint32_t bandCount = 2;
@@ -28,10 +24,12 @@ using MatrixByBand = std::array<glm::dmat3, bandCount + 1>;
 class TileGrid
 {
 public:
-	static constexpr int tileWidth = 32, tileHeight = 20;
+	/// Of whole blocks of a software renderer (4x4, 16x16 and 64x64 pixels): it shades those that are covered wholly at half the price.
+	static constexpr int tileWidth = 32, tileHeight = 32;
 	/// `tangents` of a pixel position; nothing is drawn further than `radius` pixels from `centre`.
 	TileGrid(PixelRect area, glm::dvec2 centre, double radius, const std::function<glm::dvec2(glm::dvec2)> &tangents);
 
+	const PixelRect &area() const { return area_; }
 	int columns() const { return columns_; }
 	int rows() const { return rows_; }
 	uint32_t bandOf(int row) const { return row < rows_ / int(bandCount) ? 0 : 1; }
@@ -46,7 +44,7 @@ private:
 	PixelRect area_;
 	int columns_, rows_;
 	std::vector<glm::dvec2> corners_;
-	std::vector<std::array<int, 2>> visible_; ///< first and last column of pixels, by row of tiles
+	std::vector<std::array<int, 2>> visible_; ///< first and last column of pixels, by row of tiles, in whole blocks where the area allows
 };
 
 /// Red and blue are seen at tangents that differ by at most these factors from green's.
@@ -55,8 +53,11 @@ inline constexpr std::array extremeColours{0.985, 1.02};
 glm::dmat3 matrixAtRow(const TileGrid &grid, const MatrixByBand &m, int row);
 
 enum class Cover : uint8_t { none, partly, fully };
-/// By tile, row by row: where a layer with these matrices (reprojection.h) lies. Never says `none` or `fully` in error, for any colour.
-std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix);
+/// Whether there may be anything between two corners of a layer's image, uv.
+using HasContent = std::function<bool(glm::dvec2 least, glm::dvec2 most)>;
+/// By tile, row by row: where a layer with these matrices (reprojection.h) lies and has content. Never says `none` or `fully` in error, for
+/// any colour.
+std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, const HasContent &hasContent = {});
 
 enum class Blend : uint32_t { replace, over, add };
 /// What stands behind a tile's layers: the camera's image, or what is shown where it sees nothing.
@@ -66,7 +67,7 @@ struct TileDraw {
 	Behind behind = Behind::nothing;
 	int layer = -1;
 	uint32_t band = 0;
-	std::vector<PixelRect> rects;
+	std::vector<PixelRect> rects; ///< do not overlap
 };
 struct PlannedLayer {
 	std::vector<Cover> cover; ///< empty: this eye does not see it

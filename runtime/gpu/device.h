@@ -48,6 +48,7 @@ public:
 	static uint64_t memorySizeOf(Device &device, const ImageSpec &spec);
 	VkImage image() const;
 	const ImageSpec &spec() const;
+	ImageRows rows() const;
 	uint64_t memorySize() const;
 	uint32_t memoryTypeIndex() const;
 	/// A new opaque fd of the memory for the application.

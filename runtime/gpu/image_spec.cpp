@@ -13,9 +13,42 @@ VkImageAspectFlags aspectOf(VkFormat format)
 	return hasStencil ? VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT : VK_IMAGE_ASPECT_DEPTH_BIT;
 }
 
+bool canLieInRows(uint32_t deviceType, const ImageSpec &spec)
+{
+	return deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU && !isDepth(VkFormat(spec.format)) && spec.samples == 1;
+}
+
 VkImageLayout boundaryLayout(VkFormat format)
 {
 	return isDepth(format) ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+}
+
+VkFormat storedFormat(VkFormat format)
+{
+	switch (format) {
+	case VK_FORMAT_R8G8B8A8_SRGB: return VK_FORMAT_R8G8B8A8_UNORM;
+	case VK_FORMAT_B8G8R8A8_SRGB: return VK_FORMAT_B8G8R8A8_UNORM;
+	default: return format;
+	}
+}
+
+size_t bytesPerTexel(VkFormat format)
+{
+	switch (format) {
+	case VK_FORMAT_R8G8B8A8_SRGB:
+	case VK_FORMAT_B8G8R8A8_SRGB:
+	case VK_FORMAT_R8G8B8A8_UNORM:
+	case VK_FORMAT_B8G8R8A8_UNORM:
+	case VK_FORMAT_A2B10G10R10_UNORM_PACK32: return 4;
+	case VK_FORMAT_R16G16B16A16_SFLOAT:
+	case VK_FORMAT_R16G16B16A16_UNORM: return 8;
+	default: return 0;
+	}
+}
+
+VkImageCreateFlags createFlagsOf(VkFormat format)
+{
+	return storedFormat(format) == format ? 0 : VkImageCreateFlags(VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT);
 }
 
 VkImageCreateInfo imageCreateInfo(const ImageSpec &spec, VkExternalMemoryImageCreateInfo &external)
@@ -25,18 +58,19 @@ VkImageCreateInfo imageCreateInfo(const ImageSpec &spec, VkExternalMemoryImageCr
 	const VkImageUsageFlags ours =
 		VK_IMAGE_USAGE_TRANSFER_DST_BIT |
 		(depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+	const auto format = VkFormat(spec.format);
 	external = {.sType = VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_IMAGE_CREATE_INFO, .pNext = nullptr, .handleTypes = sharedHandleType};
 	return {
 		.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
 		.pNext = &external,
-		.flags = spec.createFlags,
+		.flags = spec.createFlags | createFlagsOf(format),
 		.imageType = VK_IMAGE_TYPE_2D,
-		.format = VkFormat(spec.format),
+		.format = format,
 		.extent = {spec.width, spec.height, 1},
 		.mipLevels = spec.mipLevels,
 		.arrayLayers = spec.arrayLayers,
 		.samples = VkSampleCountFlagBits(spec.samples),
-		.tiling = VK_IMAGE_TILING_OPTIMAL,
+		.tiling = spec.inRows ? VK_IMAGE_TILING_LINEAR : VK_IMAGE_TILING_OPTIMAL,
 		.usage = spec.usage | ours,
 		.sharingMode = VK_SHARING_MODE_EXCLUSIVE,
 		.queueFamilyIndexCount = 0,

@@ -1,6 +1,7 @@
 // What a shared image is, in terms both processes agree on. Plain data and pure functions over Vulkan's C types: the client library
 // makes its import of an image from exactly the numbers with which the service made the image.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <vulkan/vulkan_core.h>
 
@@ -16,6 +17,14 @@ struct ImageSpec {
 	uint32_t arrayLayers = 1; ///< faces included
 	uint32_t mipLevels = 1;
 	uint32_t samples = 1;
+	uint32_t inRows =
+		0; ///< 1: its rows lie one after another in its memory, so that a CPU can look at them: on software devices, of colour
+};
+
+/// Where a CPU finds an image's texels; nowhere (null) when they do not lie in rows.
+struct ImageRows {
+	const std::byte *first = nullptr; ///< array layer 0, mip level 0
+	size_t rowPitch = 0, layerPitch = 0;
 };
 
 /// The VkImageCreateInfo of the image on both sides; `external` must outlive it and is filled and chained in.
@@ -27,6 +36,15 @@ constexpr VkExternalMemoryHandleTypeFlagBits sharedHandleType = VK_EXTERNAL_MEMO
 /// Layout".
 VkImageLayout boundaryLayout(VkFormat format);
 bool isDepth(VkFormat format);
+/// The same bits without sRGB encoding: the format in which the compositor samples an image. It decodes by itself, in the shader, what it
+/// then mixes: a software renderer would decode every channel of every texel.
+VkFormat storedFormat(VkFormat format);
+/// Of the colour formats that swapchains have; 0: another.
+size_t bytesPerTexel(VkFormat format);
+/// What images of a format need for that, whatever their application asks for.
+VkImageCreateFlags createFlagsOf(VkFormat format);
 VkImageAspectFlags aspectOf(VkFormat format);
+/// Whether such an image may lie in rows on a device of that VkPhysicalDeviceType: it costs a GPU speed, a software device nothing.
+bool canLieInRows(uint32_t deviceType, const ImageSpec &spec);
 
 } // namespace arift::gpu

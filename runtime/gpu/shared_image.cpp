@@ -86,7 +86,15 @@ struct SharedImage::Implementation {
 		  memory(makeMemory(gpu, image, type, size))
 	{
 		image.bindMemory(*memory, 0);
+		if (spec.inRows) map();
 		gpu.runOnce([&](const auto &commands) { clearAndRelease(commands, *image, VkFormat(spec.format), gpu.queueFamily); });
+	}
+
+	void map()
+	{
+		const auto layout = image.getSubresourceLayout({vk::ImageAspectFlagBits::eColor, 0, 0});
+		const auto *bytes = static_cast<const std::byte *>(memory.mapMemory(0, VK_WHOLE_SIZE));
+		rows = {bytes + layout.offset, layout.rowPitch, layout.arrayPitch};
 	}
 
 	Device::Handles &gpu;
@@ -94,7 +102,8 @@ struct SharedImage::Implementation {
 	vk::raii::Image image;
 	vk::DeviceSize size;
 	uint32_t type;
-	vk::raii::DeviceMemory memory;
+	vk::raii::DeviceMemory memory; ///< mapped for as long as it lives, where the image lies in rows
+	ImageRows rows;
 };
 
 uint64_t SharedImage::memorySizeOf(Device &device, const ImageSpec &spec)
@@ -109,6 +118,7 @@ SharedImage::~SharedImage() = default;
 SharedImage::SharedImage(SharedImage &&) noexcept = default;
 
 VkImage SharedImage::image() const { return *implementation_->image; }
+ImageRows SharedImage::rows() const { return implementation_->rows; }
 const ImageSpec &SharedImage::spec() const { return implementation_->spec; }
 uint64_t SharedImage::memorySize() const { return implementation_->size; }
 uint32_t SharedImage::memoryTypeIndex() const { return implementation_->type; }

@@ -34,7 +34,7 @@ bool canShare(VkPhysicalDevice device, PFN_vkGetPhysicalDeviceImageFormatPropert
 												.tiling = VK_IMAGE_TILING_OPTIMAL,
 												.usage = attachment | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
 														 VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-												.flags = 0};
+												.flags = createFlagsOf(format)};
 	VkExternalImageFormatProperties external{VK_STRUCTURE_TYPE_EXTERNAL_IMAGE_FORMAT_PROPERTIES, nullptr, {}};
 	VkImageFormatProperties2 found{VK_STRUCTURE_TYPE_IMAGE_FORMAT_PROPERTIES_2, &external, {}};
 	if (query(device, &info, &found) != VK_SUCCESS) return false;

@@ -52,19 +52,4 @@ void Composition::start(const Surroundings &surroundings)
 	compositor_->setPassthroughDistance(purpose_.config.passthroughDistance);
 }
 
-FrameAllocator allocatorOf(std::function<std::shared_ptr<Composition>()> current)
-{
-	struct Kept {
-		std::shared_ptr<Composition> composition; // goes last
-		std::shared_ptr<FrameBuffer> buffer;
-	};
-	return [current = std::move(current)](size_t bytes) {
-		auto kept = std::make_shared<Kept>();
-		kept->composition = current();
-		kept->buffer = kept->composition->frameAllocator()(bytes);
-		FrameBuffer *const buffer = kept->buffer.get();
-		return std::shared_ptr<FrameBuffer>(std::move(kept), buffer);
-	};
-}
-
 } // namespace arift

@@ -31,7 +31,6 @@ public:
 	void stop() { compositor_.reset(); }
 
 	gpu::Device &device() { return device_; }
-	FrameAllocator frameAllocator() { return renderer_->frameAllocator(); }
 	/// Null before start().
 	Compositor *compositor() { return compositor_.get(); }
 
@@ -46,8 +45,5 @@ private:
 
 /// Whether a window is wanted: by configuration, or because there is a display.
 bool wantsWindow(const Config &config);
-
-/// Memory of the composition that is current when it is asked for. A buffer keeps its composition alive.
-FrameAllocator allocatorOf(std::function<std::shared_ptr<Composition>()> current);
 
 } // namespace arift

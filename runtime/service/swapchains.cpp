@@ -25,6 +25,8 @@ void checkSpec(gpu::Device &device, const gpu::ImageSpec &spec)
 	if (spec.usage == 0 || (spec.usage & ~knownUsage) || (spec.createFlags & ~knownFlags))
 		throw Refused(XR_ERROR_FEATURE_UNSUPPORTED,
 					  fmt::format("image usage {:#x} with flags {:#x} cannot be shared", spec.usage, spec.createFlags));
+	if (spec.inRows > (gpu::canLieInRows(device.identity().deviceType, spec) ? 1u : 0u))
+		throw Refused(XR_ERROR_FEATURE_UNSUPPORTED, "the service's images do not lie in rows");
 	if ((spec.createFlags & VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT) && (spec.width != spec.height || spec.arrayLayers % 6 != 0))
 		throw Refused(XR_ERROR_VALIDATION_FAILURE, "a cube map needs six square faces");
 }
@@ -48,7 +50,8 @@ Swapchains::Made Swapchains::make(gpu::Device &device, const gpu::ImageSpec &spe
 	made.swapchain = nextSwapchain++;
 	made.memorySize = images.front()->memorySize();
 	made.memoryTypeIndex = images.front()->memoryTypeIndex();
-	for (uint32_t i = 0; i < imageCount; ++i) compositor_->addImage(imageKey(made.swapchain, i), images[i]->image(), spec, images[i]);
+	for (uint32_t i = 0; i < imageCount; ++i)
+		compositor_->addImage(imageKey(made.swapchain, i), images[i]->image(), spec, images[i], images[i]->rows());
 	swapchains_.update([&](auto &all) {
 		all[made.swapchain] = {{spec.width, spec.height, spec.arrayLayers, imageCount}, made.memorySize * imageCount};
 	});

@@ -79,8 +79,8 @@ System::System(World &world)
 	first->makeRenderer(); // pipelines take a second on a software renderer; Hello is answered in the meantime
 	// Held until every thread that sleeps on the clock has its own hold: a stepped world begins as a whole.
 	const Clock::Hold hold(world.clock);
-	headset_ = std::make_unique<Headset>(rig_, *driver_, world.clock, *world.poses, std::array{&feeds_[0], &feeds_[1]},
-										 allocatorOf([this] { return *composition_.lock(); }), realtimeFor("tracker"));
+	headset_ = std::make_unique<Headset>(rig_, *driver_, world.clock, *world.poses, std::array{&feeds_[0], &feeds_[1]}, makeHostFrameBuffer,
+										 realtimeFor("tracker"));
 	log::info("{} with rig \"{}\"", driver_->name(), rig_.name);
 	compose(first);
 }

@@ -13,13 +13,15 @@ using Access = vk::AccessFlagBits;
 using Layout = vk::ImageLayout;
 using Stage = vk::PipelineStageFlagBits;
 
-gpu::ImageSpec specOf(uint32_t width, uint32_t height, VkFormat format, uint32_t arrayLayers)
+gpu::ImageSpec specOf(const gpu::Device &device, uint32_t width, uint32_t height, VkFormat format, uint32_t arrayLayers)
 {
-	return {.format = format,
-			.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-			.width = width,
-			.height = height,
-			.arrayLayers = arrayLayers};
+	gpu::ImageSpec spec{.format = format,
+						.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+						.width = width,
+						.height = height,
+						.arrayLayers = arrayLayers};
+	spec.inRows = gpu::canLieInRows(device.identity().deviceType, spec) ? 1 : 0;
+	return spec;
 }
 
 void upload(gpu::Device &device, const gpu::SharedImage &shared, const std::vector<uint8_t> &bytes)
@@ -85,7 +87,7 @@ PanelInputs inputsAtRest(const Rig &rig)
 }
 
 LayerImage::LayerImage(gpu::Device &device, uint32_t width, uint32_t height, const Texel &texel, VkFormat format, uint32_t arrayLayers)
-	: shared_(device, specOf(width, height, format, arrayLayers))
+	: shared_(device, specOf(device, width, height, format, arrayLayers))
 {
 	std::vector<uint8_t> bytes;
 	for (uint32_t layer = 0; layer < arrayLayers; ++layer)
@@ -104,7 +106,7 @@ CameraFrame PanelTest::frame(PixelFormat format, const std::function<uint8_t(uin
 					  .height = cameraHeight,
 					  .stride = cameraWidth * bytesPerPixel(format) + padding};
 	const size_t bytes = size_t(frame.stride) * cameraHeight;
-	frame.buffer = ours ? renderer.frameAllocator()(bytes) : makeHostFrameBuffer(bytes);
+	frame.buffer = ours ? makeHostFrameBuffer(bytes) : makeHostFrameBuffer(bytes);
 	for (uint32_t y = 0; y < cameraHeight; ++y)
 		for (uint32_t x = 0; x < frame.stride - padding; ++x) frame.buffer->bytes()[size_t(y) * frame.stride + x] = std::byte(value(x, y));
 	return frame;
@@ -121,7 +123,7 @@ uint64_t PanelTest::addImage(uint32_t width, uint32_t height, const LayerImage::
 {
 	images.push_back(std::make_unique<LayerImage>(device, width, height, texel, format, arrayLayers));
 	const uint64_t key = images.size();
-	renderer.addImage(key, images.back()->image(), images.back()->spec());
+	renderer.addImage(key, images.back()->image(), images.back()->spec(), images.back()->rows());
 	return key;
 }
 

@@ -30,6 +30,7 @@ public:
 	LayerImage(gpu::Device &device, uint32_t width, uint32_t height, const Texel &texel, VkFormat format = VK_FORMAT_R8G8B8A8_UNORM,
 			   uint32_t arrayLayers = 1);
 	VkImage image() const { return shared_.image(); }
+	gpu::ImageRows rows() const { return shared_.rows(); }
 	const gpu::ImageSpec &spec() const { return shared_.spec(); }
 
 private:

@@ -51,6 +51,7 @@ PhysicalDeviceId identify(const VulkanInstanceApi &vulkan, VkPhysicalDevice devi
 		vulkan.GetPhysicalDeviceProperties(device, &properties.properties);
 	std::ranges::copy(uuids.deviceUUID, id.deviceUuid.begin());
 	std::ranges::copy(uuids.driverUUID, id.driverUuid.begin());
+	id.deviceType = properties.properties.deviceType;
 	return id;
 }
 

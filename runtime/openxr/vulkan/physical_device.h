@@ -10,6 +10,7 @@ namespace arift::openxr
 
 struct PhysicalDeviceId {
 	std::array<uint8_t, 16> deviceUuid{}, driverUuid{}; ///< zero where the instance cannot say
+	uint32_t deviceType = 0;                            ///< VkPhysicalDeviceType
 };
 PhysicalDeviceId identify(const VulkanInstanceApi &vulkan, VkPhysicalDevice device);
 

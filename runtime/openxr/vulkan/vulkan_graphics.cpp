@@ -145,6 +145,7 @@ gpu::ImageSpec VulkanGraphics::specOf(const XrSwapchainCreateInfo &info) const
 	spec.arrayLayers = info.arraySize * info.faceCount;
 	spec.mipLevels = info.mipCount;
 	spec.samples = info.sampleCount;
+	spec.inRows = gpu::canLieInRows(id_.deviceType, spec) ? 1 : 0;
 	VkExternalMemoryImageCreateInfo external;
 	const VkImageCreateInfo create = gpu::imageCreateInfo(spec, external);
 	VkImageFormatProperties limits{};

@@ -1,6 +1,6 @@
 // Cost of PanelRenderer::render by what there is to draw: original rig, raw Bayer of 752x480, layers of 1122x1553 per eye in sRGB.
 #include "runtime/compositor/panel_renderer.h"
-#include "runtime/gpu/device.h"
+#include "runtime/gpu/handles.h"
 #include "runtime/optics/rig.h"
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -12,16 +12,52 @@ namespace
 
 constexpr uint32_t viewWidth = 1122, viewHeight = 1553;
 
+/// Layers of this are drawn everywhere, those of transparent black nowhere.
+const vk::ClearColorValue translucent(std::array{0.05f, 0.1f, 0.2f, 0.5f});
+
+void fill(gpu::Device &device, const gpu::SharedImage &shared, const vk::ClearColorValue &colour)
+{
+	using Access = vk::AccessFlagBits;
+	using Layout = vk::ImageLayout;
+	using Stage = vk::PipelineStageFlagBits;
+	gpu::Device::Handles &gpu = device.handles();
+	const auto boundary = Layout(gpu::boundaryLayout(VkFormat(shared.spec().format)));
+	const vk::ImageSubresourceRange all{vk::ImageAspectFlagBits::eColor, 0, 1, 0, VK_REMAINING_ARRAY_LAYERS};
+	gpu.runOnce([&](const vk::raii::CommandBuffer &commands) {
+		commands.pipelineBarrier(Stage::eTopOfPipe, Stage::eTransfer, {}, {}, {},
+								 vk::ImageMemoryBarrier{{},
+														Access::eTransferWrite,
+														boundary,
+														Layout::eTransferDstOptimal,
+														VK_QUEUE_FAMILY_EXTERNAL,
+														gpu.queueFamily,
+														shared.image(),
+														all});
+		commands.clearColorImage(shared.image(), Layout::eTransferDstOptimal, colour, all);
+		commands.pipelineBarrier(Stage::eTransfer, Stage::eBottomOfPipe, {}, {}, {},
+								 vk::ImageMemoryBarrier{Access::eTransferWrite,
+														{},
+														Layout::eTransferDstOptimal,
+														boundary,
+														gpu.queueFamily,
+														VK_QUEUE_FAMILY_EXTERNAL,
+														shared.image(),
+														all});
+	});
+}
+
 struct Scene {
 	Scene() : rig(readRig(ARIFT_RIG)), renderer(device, rig)
 	{
-		const gpu::ImageSpec spec{.format = VK_FORMAT_R8G8B8A8_SRGB,
-								  .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
-								  .width = viewWidth,
-								  .height = viewHeight,
-								  .arrayLayers = 2};
+		gpu::ImageSpec spec{.format = VK_FORMAT_R8G8B8A8_SRGB,
+							.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+							.width = viewWidth,
+							.height = viewHeight,
+							.arrayLayers = 2};
+		spec.inRows = gpu::canLieInRows(device.identity().deviceType, spec) ? 1 : 0;
 		views.emplace(device, spec);
-		renderer.addImage(1, views->image(), spec);
+		fill(device, *views, translucent);
+		renderer.addImage(1, views->image(), spec, views->rows());
 		for (size_t e = 0; e < 2; ++e) {
 			const CameraModel &model = rig.cameras[e].model;
 			CameraFrame frame{.sequence = 1,
@@ -29,7 +65,7 @@ struct Scene {
 							  .width = model.width(),
 							  .height = model.height(),
 							  .stride = model.width(),
-							  .buffer = renderer.frameAllocator()(size_t(model.width()) * model.height())};
+							  .buffer = makeHostFrameBuffer(size_t(model.width()) * model.height())};
 			for (size_t i = 0; i < frame.buffer->bytes().size(); ++i) frame.buffer->bytes()[i] = std::byte(i * 7919 % 251);
 			inputs.cameras[e] = CameraView{.frame = frame, .cameraInOrigin = rig.cameras[e].cameraInHead, .lens = uint32_t(e)};
 			inputs.top[e] = inputs.bottom[e] = {rig.eyeInHead[e], identityPose};
@@ -88,6 +124,13 @@ void cameraAndSmallQuad(benchmark::State &state)
 {
 	measure(state, [](Scene &scene) { scene.addQuad(0.3f, 0); });
 }
+void cameraAndEmptyLayer(benchmark::State &state)
+{
+	measure(state, [](Scene &scene) {
+		fill(scene.device, *scene.views, {});
+		scene.addProjection(false);
+	});
+}
 void cameraAndFullLayer(benchmark::State &state)
 {
 	measure(state, [](Scene &scene) { scene.addProjection(false); });
@@ -106,6 +149,27 @@ void cameraFullLayerAndFourQuads(benchmark::State &state)
 		for (int i = 0; i < 4; ++i) scene.addQuad(0.3f, 0.35f * float(i) - 0.5f);
 	});
 }
+/// No worse than linear: cost against the number of layers, with content and hidden behind the viewer.
+void layers(benchmark::State &state, double ahead)
+{
+	measure(state, [&](Scene &scene) {
+		for (int64_t i = 0; i < state.range(0); ++i) {
+			scene.addQuad(0.2f, 0.02f * float(i % 16) - 0.15f);
+			for (auto &quad : scene.inputs.layers.back().quad) quad->quadInFrame.position.z = float(-ahead);
+		}
+	});
+}
+/// The same panel, images of one to four times as many texels.
+void imageSize(benchmark::State &state)
+{
+	measure(state, [&](Scene &scene) {
+		scene.addProjection(false);
+		for (auto &view : scene.inputs.layers.back().projection) {
+			view->texture.rect.extent.width /= int32_t(state.range(0));
+			view->texture.rect.extent.height /= int32_t(state.range(0));
+		}
+	});
+}
 void makeRenderer(benchmark::State &state)
 {
 	gpu::Device device;
@@ -117,10 +181,21 @@ void makeRenderer(benchmark::State &state)
 ARIFT_FRAME_BENCHMARK(nothing);
 ARIFT_FRAME_BENCHMARK(cameraOnly);
 ARIFT_FRAME_BENCHMARK(cameraAndSmallQuad);
+ARIFT_FRAME_BENCHMARK(cameraAndEmptyLayer);
 ARIFT_FRAME_BENCHMARK(cameraAndFullLayer);
 ARIFT_FRAME_BENCHMARK(opaqueLayer);
 ARIFT_FRAME_BENCHMARK(cameraFullLayerAndFourQuads);
 ARIFT_FRAME_BENCHMARK(makeRenderer);
+#define ARIFT_LAYER_BENCHMARK(name, ahead)                                                                                                 \
+	BENCHMARK_CAPTURE(layers, name, ahead)                                                                                                 \
+		->RangeMultiplier(4)                                                                                                               \
+		->Range(1, 64)                                                                                                                     \
+		->Unit(benchmark::kMillisecond)                                                                                                    \
+		->UseRealTime()                                                                                                                    \
+		->MeasureProcessCPUTime()
+ARIFT_LAYER_BENCHMARK(shown, 1.0);
+ARIFT_LAYER_BENCHMARK(hidden, -1.0);
+ARIFT_FRAME_BENCHMARK(imageSize)->Arg(1)->Arg(2)->Arg(4);
 
 } // namespace
 } // namespace arift

@@ -52,7 +52,7 @@ public:
 		  renderer_(device_, rig_, VK_FORMAT_R16G16B16A16_UNORM)
 	{
 		for (int eye = 0; eye < 2; ++eye) windows_[size_t(eye)] = fieldOfView(eye, numbers_.eyeRelief);
-		const FrameAllocator allocate = renderer_.frameAllocator();
+		const FrameAllocator allocate = makeHostFrameBuffer;
 		for (size_t eye = 0; eye < 2; ++eye)
 			for (const Content content : contents)
 				frames_[eye][size_t(content)] =
