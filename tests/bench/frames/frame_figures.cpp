@@ -1,5 +1,6 @@
 // What the whole system costs on this machine, in real time with the synthetic headset. Options are those of other benchmarks, and ignored.
 #include "tests/bench/frames/instance_time.h"
+#include "tests/bench/frames/shown_frames.h"
 #include "tests/e2e/common/command.h"
 #include "tests/e2e/common/private_service.h"
 #include <algorithm>
@@ -93,6 +94,7 @@ int main()
 	try {
 		startUp();
 		atWork();
+		bench::shownFrames();
 		return 0;
 	} catch (const std::exception &problem) {
 		std::fprintf(stderr, "bench_frames: %s\n", problem.what());

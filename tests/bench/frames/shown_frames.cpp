@@ -1,0 +1,139 @@
+#include "tests/bench/frames/shown_frames.h"
+#include "tests/bench/frames/frame_code.h"
+#include "tests/bench/frames/plain_pass.h"
+#include "tests/bench/frames/ring_recording.h"
+#include "tests/common/temporary_folder.h"
+#include "tests/e2e/common/private_service.h"
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+#include <unistd.h>
+
+namespace arift::bench
+{
+
+namespace
+{
+
+using namespace arift::e2e;
+
+constexpr auto measured = std::chrono::seconds(5);
+
+struct Load {
+	const char *content;
+	uint32_t quads;
+};
+
+std::string ring(const std::filesystem::path &recording)
+{
+	return "[headset]\ndriver = \"replay\"\nrig = \"arift\"\n[clock]\nmode = \"real\"\n[compositor]\ntarget = \"offscreen\"\n[replay]\n"
+		   "recording = \"" +
+		   recording.string() + "\"\n";
+}
+constexpr const char *live = "[headset]\ndriver = \"synthetic\"\n[clock]\nmode = \"real\"\n[compositor]\ntarget = \"offscreen\"\n";
+
+/// User and system time of a process, seconds.
+double processorTime(int pid)
+{
+	std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+	std::string text;
+	std::getline(file, text);
+	std::istringstream fields(text.substr(text.rfind(')') + 2));
+	std::string skipped;
+	for (int i = 0; i < 11; ++i) fields >> skipped;
+	double user = 0, system = 0;
+	fields >> user >> system;
+	return (user + system) / double(::sysconf(_SC_CLK_TCK));
+}
+
+uint64_t shownOf(const nlohmann::json &status)
+{
+	for (const auto &client : status["clients"])
+		if (client["name"] == "clearing_application") return client["shown"];
+	return 0;
+}
+
+/// The number of the frame that the left eye sees.
+std::optional<uint32_t> codeIn(const PanelPicture &eyes)
+{
+	// The eye's image is what the application drew, at another size.
+	const double scale = double(eyes.width) / 2 / 1122;
+	std::array<double, codeCells> cells{};
+	for (uint32_t cell = 0; cell < codeCells; ++cell) {
+		const double x = eyes.width / 4.0 + (double(cell) + 0.5 - codeCells / 2.0) * codeCell * scale;
+		cells[cell] = eyes.rgba[4 * (size_t(eyes.height / 2) * eyes.width + size_t(x)) + 1];
+	}
+	return decodeFrame(cells);
+}
+
+/// Pictures of the panel show the application's frames one after another, and no more of them than the service says it has shown.
+void checkCount(PrivateService &service, const char *what)
+{
+	constexpr int pictures = 8;
+	uint64_t before = shownOf(service.status());
+	std::optional<uint32_t> last;
+	int decoded = 0, changed = 0;
+	for (int i = 0; i < pictures; ++i) {
+		const auto code = codeIn(service.screenshot(ipc::PictureKind::eyes));
+		const uint64_t shown = shownOf(service.status());
+		if (!code) continue;
+		++decoded;
+		if (last && *last != *code) ++changed;
+		const uint32_t drawn = last ? (*code - *last) & ((1u << codeBits) - 1) : 0;
+		// What is shown was drawn before; a frame or two may be shown between picture and count.
+		if (last && shown - before > drawn + 2)
+			throw std::runtime_error(std::string(what) + ": the service counts frames that no picture shows");
+		last = code;
+		before = shown;
+	}
+	if (decoded < pictures / 2 || changed < decoded / 2)
+		throw std::runtime_error(std::string(what) + ": of " + std::to_string(pictures) + " pictures " + std::to_string(decoded) +
+								 " show a frame's code, " + std::to_string(changed) + " another one than the picture before");
+}
+
+double measure(const std::string &configuration, const char *cameras, const Load &load, double unit)
+{
+	PrivateService service(configuration);
+	ChildProcess application = service.start("clearing_application", {load.content, std::to_string(load.quads)});
+	const std::string what =
+		std::string(cameras) + ", " + load.content + " layer" + (load.quads > 0 ? " and " + std::to_string(load.quads) + " quads" : "");
+	if (!eventually(service, [](const auto &status) { return shownOf(status) > 30; }))
+		throw std::runtime_error(what + ": nothing is shown\n" + application.output());
+	const uint64_t before = shownOf(service.status(true));
+	const XrTime begin = realTime();
+	const double used = processorTime(service.process().pid()) + processorTime(application.pid());
+	std::this_thread::sleep_for(measured); // the machine is the system's alone while it is measured
+	const double cost = processorTime(service.process().pid()) + processorTime(application.pid()) - used;
+	const double seconds = inSeconds(realTime() - begin);
+	const nlohmann::json status = service.status();
+	const double shown = double(shownOf(status) - before);
+	if (shown == 0) throw std::runtime_error(what + ": no frame was shown");
+	const double each = 1e3 * cost / shown;
+	std::printf("%-52s %5.1f ms of CPU per frame shown (%4.1f units), %4.1f shown per second\n", what.c_str(), each, each / unit,
+				shown / seconds);
+	std::fflush(stdout);
+	checkCount(service, what.c_str());
+	return each;
+}
+
+} // namespace
+
+void shownFrames()
+{
+	const double unit = plainPassMilliseconds();
+	std::printf("%-52s %5.1f ms of CPU: the unit\n", "one sample per pixel, 1280 x 800", unit);
+	const test::TemporaryFolder folder;
+	writeRing(folder.path());
+	const std::string still = ring(folder.path());
+	const double translucent = measure(still, "ring of images at 30 Hz", {"translucent", 0}, unit);
+	measure(still, "ring of images at 30 Hz", {"opaque", 0}, unit);
+	measure(still, "ring of images at 30 Hz", {"transparent", 0}, unit);
+	const double quads = measure(still, "ring of images at 30 Hz", {"translucent", 4}, unit);
+	std::printf("%-52s %5.1f ms\n", "four quads more", quads - translucent);
+	measure(live, "synthetic cameras live", {"translucent", 0}, unit);
+	measure(live, "synthetic cameras live", {"transparent", 0}, unit);
+}
+
+} // namespace arift::bench
