@@ -7,7 +7,8 @@
 namespace arift
 {
 
-/// How a program ends that worked and was stopped by a fault: whoever watches over it starts it anew. 1 is for what would only happen again.
+/// How a program ends that worked and was stopped by a fault: whoever watches over it starts it anew. 1 is for what would only happen
+/// again.
 constexpr int exitAfterFault = 70; // EX_SOFTWARE of sysexits.h
 
 /// Bad input from outside (a file, a command line, a message). `what()` is one sentence fit to be shown as it is.

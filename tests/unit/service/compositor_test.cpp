@@ -26,7 +26,10 @@ public:
 	FakePanel(Clock &clock, Guarded<std::vector<Drawn>> &drawn) : clock_(clock), drawn_(drawn), target_(makeOffscreenTarget(clock, period))
 	{
 	}
-	void addImage(uint64_t key, VkImage, const gpu::ImageSpec &, const gpu::ImageRows &) override { EXPECT_TRUE(images_.insert(key).second); }
+	void addImage(uint64_t key, VkImage, const gpu::ImageSpec &, const gpu::ImageRows &) override
+	{
+		EXPECT_TRUE(images_.insert(key).second);
+	}
 	void removeImage(uint64_t key) override { EXPECT_EQ(images_.erase(key), 1u); }
 	void render(const PanelInputs &inputs) override
 	{
