@@ -100,7 +100,6 @@ bool CameraImages::upload(const vk::raii::CommandBuffer &commands, size_t index,
 	eye.shownBuffer = frame.buffer.get();
 	eye.shownSequence = frame.sequence;
 	eye.shownExposure = frame.midExposure;
-	++uploads_;
 	return other;
 }
 

@@ -24,8 +24,6 @@ public:
 	/// Packs an image that is not the one this eye has already and records its copy; says whether the eye's texture is another than before.
 	/// The frame is not needed any more afterwards.
 	bool upload(const vk::raii::CommandBuffer &commands, size_t eye, const CameraFrame &frame);
-	/// Images uploaded so far.
-	uint64_t uploads() const { return uploads_; }
 	vk::ImageView sites(size_t eye) const { return eyes_[eye].sites ? *eyes_[eye].sites->view : *nothing_.view; }
 
 private:
@@ -43,7 +41,6 @@ private:
 	gpu::Device::Handles &gpu_;
 	Texture nothing_; ///< bound where there is no image
 	std::array<Eye, 2> eyes_;
-	uint64_t uploads_ = 0;
 };
 
 /// The camera's table of G over the angle; one texel where the Rig needs none.

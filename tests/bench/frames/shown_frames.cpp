@@ -32,7 +32,9 @@ std::string ring(const std::filesystem::path &recording)
 		   "recording = \"" +
 		   recording.string() + "\"\n";
 }
-constexpr const char *live = "[headset]\ndriver = \"synthetic\"\n[clock]\nmode = \"real\"\n[compositor]\ntarget = \"offscreen\"\n";
+/// The head rests, so that the number is where it is read.
+constexpr const char *live = "[headset]\ndriver = \"synthetic\"\n[clock]\nmode = \"real\"\n[compositor]\ntarget = \"offscreen\"\n"
+							 "[synthetic]\nmotion = \"rest\"\n";
 
 /// User and system time of a process, seconds.
 double processorTime(int pid)
@@ -68,29 +70,35 @@ std::optional<uint32_t> codeIn(const PanelPicture &eyes)
 	return decodeFrame(cells);
 }
 
-/// Pictures of the panel show the application's frames one after another, and no more of them than the service says it has shown.
-void checkCount(PrivateService &service, const char *what)
+/// Pictures of the panel show the application's frames one after another, and the service counts no more of them than were drawn between
+/// the first picture and the last: it is asked after the one and before the other.
+void checkCount(PrivateService &service, const std::string &what)
 {
 	constexpr int pictures = 8;
-	uint64_t before = shownOf(service.status());
 	std::optional<uint32_t> last;
+	uint64_t countedFirst = 0, counted = 0, drawn = 0;
 	int decoded = 0, changed = 0;
 	for (int i = 0; i < pictures; ++i) {
+		const uint64_t before = shownOf(service.status());
 		const auto code = codeIn(service.screenshot(ipc::PictureKind::eyes));
-		const uint64_t shown = shownOf(service.status());
 		if (!code) continue;
 		++decoded;
-		if (last && *last != *code) ++changed;
-		const uint32_t drawn = last ? (*code - *last) & ((1u << codeBits) - 1) : 0;
-		// What is shown was drawn before; a frame or two may be shown between picture and count.
-		if (last && shown - before > drawn + 2)
-			throw std::runtime_error(std::string(what) + ": the service counts frames that no picture shows");
+		if (last) {
+			const uint32_t since = (*code - *last) & ((1u << codeBits) - 1);
+			drawn += since;
+			changed += since > 0;
+			counted = before - countedFirst;
+		} else {
+			countedFirst = shownOf(service.status());
+		}
 		last = code;
-		before = shown;
 	}
 	if (decoded < pictures / 2 || changed < decoded / 2)
-		throw std::runtime_error(std::string(what) + ": of " + std::to_string(pictures) + " pictures " + std::to_string(decoded) +
+		throw std::runtime_error(what + ": of " + std::to_string(pictures) + " pictures " + std::to_string(decoded) +
 								 " show a frame's code, " + std::to_string(changed) + " another one than the picture before");
+	if (counted > drawn)
+		throw std::runtime_error(what + ": the service counts " + std::to_string(counted) + " frames where pictures show " +
+								 std::to_string(drawn));
 }
 
 double measure(const std::string &configuration, const char *cameras, const Load &load, double unit)
@@ -114,7 +122,7 @@ double measure(const std::string &configuration, const char *cameras, const Load
 	std::printf("%-52s %5.1f ms of CPU per frame shown (%4.1f units), %4.1f shown per second\n", what.c_str(), each, each / unit,
 				shown / seconds);
 	std::fflush(stdout);
-	checkCount(service, what.c_str());
+	checkCount(service, what);
 	return each;
 }
 
