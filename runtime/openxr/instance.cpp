@@ -134,7 +134,7 @@ XrResult pollEvent(EvenIfLost<Instance> instance, XrEventDataBuffer *event)
 {
 	if (!event) throw Error(XR_ERROR_VALIDATION_FAILURE, "the event buffer is null");
 	if (instance->takeEvent(*event)) return XR_SUCCESS;
-	instance->requireAlive();
+	if (instance->lossTold()) instance->requireAlive(); // a loss after that look is told by the next one
 	return XR_EVENT_UNAVAILABLE;
 }
 

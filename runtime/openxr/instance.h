@@ -39,6 +39,8 @@ public:
 
 	/// Takes the oldest event for the application, if there is one; news from the service becomes events here.
 	bool takeEvent(XrEventDataBuffer &event);
+	/// Whether the last event of all, that the service is lost, was taken.
+	bool lossTold() const { return lossTold_; }
 	/// The one session's, or null; set by the session itself.
 	void setSession(std::shared_ptr<SessionLife> life) { *session_.lock() = std::move(life); }
 
