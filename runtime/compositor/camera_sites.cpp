@@ -81,7 +81,8 @@ template <typename Value> void packGrey(const CameraFrame &frame, const SiteImag
 
 void packBayer(const CameraFrame &frame, const SiteImage &image, std::byte *sites)
 {
-	const auto [redX, redY] = redOf(frame.format);
+	const std::array<uint32_t, 2> red = redOf(frame.format);
+	const uint32_t redX = red[0], redY = red[1];
 	const auto *pixels = reinterpret_cast<const uint8_t *>(frame.buffer->bytes().data());
 	const auto at = [&](uint32_t cellRow, uint32_t x, uint32_t y) { return pixels + size_t(2 * cellRow + y) * frame.stride + x; };
 	const size_t plane = size_t(image.width) * image.height * image.bytesPerSite;
