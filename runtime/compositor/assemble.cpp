@@ -12,7 +12,7 @@ struct SeenImage {
 	CameraView view;
 	XrPosef head;
 };
-std::optional<SeenImage> seenImage(const Rig &rig, const ipc::ViewTable &views, const PoseHistory &poses, XrTime displayTime,
+std::optional<SeenImage> seenImage(const Rig &rig, const ipc::ViewTable &views, const PoseMoment &poses, XrTime displayTime,
 								   const Latched &latched, uint32_t eye)
 {
 	for (const uint32_t lens : {eye, 1 - eye}) {
@@ -33,7 +33,7 @@ std::optional<SeenImage> seenImage(const Rig &rig, const ipc::ViewTable &views, 
 
 } // namespace
 
-PanelInputs assemble(const Rig &rig, const ipc::ViewTable &views, const PoseHistory &poses, XrTime displayTime, Latched latched)
+PanelInputs assemble(const Rig &rig, const ipc::ViewTable &views, const PoseMoment &poses, XrTime displayTime, Latched latched)
 {
 	PanelInputs inputs{.displayTime = displayTime, .blendMode = latched.blendMode, .passthroughDistance = latched.passthroughDistance};
 	const XrDuration toEdge = XrDuration(double(rig.timing.lineTime) * (rig.lens.panel().height - 1) / 2);

@@ -1,4 +1,4 @@
-// Poses, camera images and layers at one display time -> PanelInputs. Pure: asks the pose history and nobody else.
+// Poses, camera images and layers at one display time -> PanelInputs. Pure: asks what the pose history holds at one moment and nobody else.
 #pragma once
 #include "runtime/compositor/camera_feed.h"
 #include "runtime/compositor/panel_inputs.h"
@@ -22,6 +22,6 @@ constexpr XrDuration oldestImage = 1 * second;
 
 /// `displayTime` is the middle line's. Each eye gets its own camera's image, or the other's when its own is lost or too old. The views
 /// stand where the shared rule puts them (motion/view_poses.h), for the image that is really shown.
-PanelInputs assemble(const Rig &rig, const ipc::ViewTable &views, const PoseHistory &poses, XrTime displayTime, Latched latched);
+PanelInputs assemble(const Rig &rig, const ipc::ViewTable &views, const PoseMoment &poses, XrTime displayTime, Latched latched);
 
 } // namespace arift

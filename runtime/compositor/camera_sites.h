@@ -2,6 +2,8 @@
 // two multiplications then interpolate a colour on its own lattice: a software renderer pays for every fetch. Pure functions.
 #pragma once
 #include "runtime/device/camera.h"
+#include <array>
+#include <span>
 
 namespace arift
 {

@@ -151,9 +151,10 @@ void Compositor::Loop::choose(const Pacer::Refresh &refresh, Frame &frame)
 	for (size_t eye = 0; eye < 2; ++eye)
 		if (surroundings_.cameras[eye]) latched.cameras[eye] = surroundings_.cameras[eye]->newest();
 	latchLayers(frame, latched);
-	surroundings_.poses.newest(frame.newest);
+	const PoseMoment poses = surroundings_.poses.now(); // one moment for all of the frame
+	if (poses.newest()) frame.newest = *poses.newest();
 	if (const auto views = surroundings_.page.views.read()) views_ = *views;
-	frame.inputs = assemble(surroundings_.rig, views_, surroundings_.poses, refresh.display, std::move(latched));
+	frame.inputs = assemble(surroundings_.rig, views_, poses, refresh.display, std::move(latched));
 	fade_.apply(frame.inputs);
 	wake(frame.sources, refresh); // they draw for the refresh after this one while this one is drawn
 }
@@ -166,10 +167,9 @@ void Compositor::Loop::show(const Pacer::Refresh &refresh, Frame &frame)
 	for (size_t i = 0; i < frame.sources.size(); ++i)
 		if (frame.contents[i]) frame.sources[i]->displayed(*frame.contents[i], frame.result.display);
 	if (frame.result.rawKeys % 2 == 0) return;
-	inbox.update([](Inbox &box) {
-		box.settings.rawPassthrough = !box.settings.rawPassthrough;
-		log::info("key: {}", box.settings.rawPassthrough ? "the cameras alone are shown" : "holograms are shown again");
-	});
+	bool raw = false;
+	inbox.update([&](Inbox &box) { raw = box.settings.rawPassthrough = !box.settings.rawPassthrough; });
+	log::info("key: {}", raw ? "the cameras alone are shown" : "holograms are shown again");
 }
 
 XrDuration Compositor::Loop::lateness(const Pacer::Refresh &refresh, XrTime now) const

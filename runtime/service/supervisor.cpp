@@ -104,7 +104,7 @@ std::optional<int> supervise(const std::function<void()> &parentBegins)
 		}
 		const int status = watch.await();
 		if (!isFault(status)) return WEXITSTATUS(status);
-		if (watch.stopping()) return 128 + WTERMSIG(status);
+		if (watch.stopping()) return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 		const auto pause = policy.died(realTime() - began);
 		if (!pause) {
 			log::error("{} the service {} times in a row within {} s: it is not started again", describe(status),

@@ -9,15 +9,6 @@ namespace arift
 namespace
 {
 
-std::filesystem::path privateFolder()
-{
-	std::string name = (std::filesystem::temp_directory_path() / "arift-openxr-XXXXXX").string();
-	if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-	::setenv("XDG_RUNTIME_DIR", name.c_str(), 1);
-	::setenv("ARIFT_SERVICE", "/nonexistent", 1); // nothing but this service may answer
-	return name;
-}
-
 ipc::ViewTable usualViews()
 {
 	ipc::ViewTable views{};
@@ -53,9 +44,10 @@ ipc::Welcome FakeService::usualWelcome()
 	return welcome;
 }
 
-FakeService::FakeService(ipc::Welcome welcome, MakeImages makeImages)
-	: folder_(privateFolder()), welcome_(std::move(welcome)), makeImages_(std::move(makeImages))
+FakeService::FakeService(ipc::Welcome welcome, MakeImages makeImages) : welcome_(std::move(welcome)), makeImages_(std::move(makeImages))
 {
+	::setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+	::setenv("ARIFT_SERVICE", "/nonexistent", 1); // nothing but this service may answer
 	system_->protocol = ipc::protocol;
 	system_->heartbeat = realTime();
 	system_->clock.write({});
@@ -74,8 +66,6 @@ FakeService::~FakeService()
 	hangUp();
 	connections_.lock()->clear(); // each thread is told to stop and joined
 	heart_ = {};
-	std::error_code ignored;
-	std::filesystem::remove_all(folder_, ignored);
 }
 
 void FakeService::beat(const std::stop_token &stop)

@@ -5,7 +5,7 @@
 #include "runtime/ipc/listener.h"
 #include "runtime/ipc/shared_memory.h"
 #include "runtime/motion/pose_history.h"
-#include <filesystem>
+#include "tests/common/temporary_folder.h"
 #include <functional>
 #include <optional>
 #include <thread>
@@ -75,7 +75,7 @@ private:
 	};
 	void start(std::shared_ptr<ipc::Socket> socket, void (FakeService::*work)(ipc::Socket &, const std::stop_token &));
 
-	const std::filesystem::path folder_;
+	const test::TemporaryFolder folder_;
 	ipc::Welcome welcome_;
 	MakeImages makeImages_;
 	ipc::SharedPage<ipc::SystemPage> system_{"fake-system"};

@@ -236,7 +236,7 @@ TEST(Assemble, AnImageOlderThanASecondIsNone)
 	latched.cameras[0] = {{.frame = {.midExposure = 10 * second}}};
 	latched.cameras[1] = {{.frame = {.midExposure = 10 * second + 500 * millisecond}}};
 	const auto lensOf = [&](XrTime display, size_t eye) -> std::optional<uint32_t> {
-		const PanelInputs inputs = assemble(rig, {}, PoseHistory(*poses), display, latched);
+		const PanelInputs inputs = assemble(rig, {}, PoseHistory(*poses).now(), display, latched);
 		return inputs.cameras[eye] ? std::optional(inputs.cameras[eye]->lens) : std::nullopt;
 	};
 	EXPECT_EQ(lensOf(11 * second, 0), 0u) << "old, and shown with a sign";
