@@ -96,6 +96,13 @@ struct ViewTable {
 	uint32_t recenterCount = 0;
 };
 
+/// Whether there is a headset to use.
+struct HeadsetState {
+	uint32_t isMissing = 0;
+	uint32_t reserved = 0;
+	char problem[240]{}; ///< where it is: why, in a sentence that says what to do
+};
+
 /// What changes with every camera image or refresh.
 struct TimingTable {
 	std::array<CameraTiming, 2> cameras;
@@ -118,6 +125,7 @@ struct SystemPage {
 	Published<ClockTable> clock;
 	Published<ViewTable> views;
 	Published<TimingTable> timing;
+	Published<HeadsetState> headset;
 };
 
 enum class EventType : uint32_t { none, visibilityChanged, exitRequested, recentered, lossPending };

@@ -33,6 +33,7 @@ public:
 	/// Both throw XR_ERROR_INSTANCE_LOST when the page can not be read: its writer died half-way.
 	ipc::ViewTable views() const { return read(system_->views); }
 	ipc::TimingTable timing() const { return read(system_->timing); }
+	ipc::HeadsetState headset() const { return read(system_->headset); }
 	ClockAnchor clock() const;
 	/// Now, in the time of the service's clock.
 	XrTime now() const { return clock().at(realTime()); }

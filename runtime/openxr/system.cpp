@@ -14,6 +14,8 @@ void getSystem(Instance &instance, const XrSystemGetInfo &info, XrSystemId &syst
 {
 	if (info.formFactor != XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY)
 		throw Error(XR_ERROR_FORM_FACTOR_UNSUPPORTED, "form factor {} is not HEAD_MOUNTED_DISPLAY", int(info.formFactor));
+	if (const ipc::HeadsetState headset = instance.service.headset(); headset.isMissing)
+		throw Error(XR_ERROR_FORM_FACTOR_UNAVAILABLE, "{}", ipc::textOf(headset.problem));
 	instance.hasSystem = true;
 	system = theSystem;
 }

@@ -112,6 +112,7 @@ void Client::answer(const ipc::CreateSession &message)
 {
 	if (session_) throw Refused(XR_ERROR_LIMIT_REACHED, "an instance may have one session at a time");
 	const Opened opened = world_.await(Stage::ready, ipc::openingLimit);
+	if (!opened.headsetProblem.empty()) throw Refused(XR_ERROR_INITIALIZATION_FAILED, opened.headsetProblem);
 	if (!message.headless &&
 		(message.deviceUuid != opened.device->identity().deviceUuid || message.driverUuid != opened.device->identity().driverUuid))
 		throw Refused(XR_ERROR_GRAPHICS_DEVICE_INVALID,

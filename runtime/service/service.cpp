@@ -10,6 +10,7 @@ namespace
 {
 
 constexpr XrDuration heartbeatPeriod = 50 * millisecond, lastWords = second / 2;
+constexpr XrDuration usbPeriod = second;
 constexpr size_t maxClients = 64;
 
 std::unique_ptr<Clock> makeClock(const Config &config)
@@ -101,8 +102,7 @@ void Service::recover(const std::string &problem)
 		opened.device.reset();
 		opened.compositor.reset();
 	});
-	for (const auto &about : abouts())
-		if (const auto session = about->lock()->session) session->hangUp();
+	endSessions();
 	opener_ = std::jthread([this, problem](const std::stop_token &stop) {
 		try {
 			system_->recompose(problem, stop);
@@ -110,6 +110,20 @@ void Service::recover(const std::string &problem)
 			fail(last.what(), true);
 		}
 	});
+}
+
+/// Their applications are told, and may begin new ones.
+void Service::endSessions()
+{
+	for (const auto &about : abouts())
+		if (const auto session = about->lock()->session) session->hangUp();
+}
+
+void Service::followHeadset()
+{
+	if (realTime() < lookAtUsb_) return;
+	lookAtUsb_ = realTime() + usbPeriod;
+	if (system_->followHeadset()) endSessions();
 }
 
 std::vector<std::shared_ptr<Guarded<Client::About>>> Service::abouts()
@@ -174,6 +188,7 @@ Service::End Service::run()
 		// Who asked in the meantime is told the reason before the door closes.
 		if (opened.stage == Stage::failed && realTime() - failedAt > lastWords) return {opened.problem, opened.fault};
 		if (opened.stage != Stage::ready) continue;
+		followHeadset();
 		const auto end = opened.compositor->ended();
 		if (end && end->closed) {
 			log::info("the window was closed");

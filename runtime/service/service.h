@@ -39,6 +39,8 @@ public:
 private:
 	void open();
 	void recover(const std::string &problem);
+	void endSessions();
+	void followHeadset();
 	void beat(const std::stop_token &stop);
 	void removeFinished();
 	void admit(ipc::Socket socket);
@@ -55,6 +57,7 @@ private:
 	std::unique_ptr<System> system_; ///< made by opener_; read elsewhere once world_.opened says so
 	Guarded<std::list<Client>> clients_{};
 	XrTime lastSeen_ = 0; ///< real: when the newest client was there
+	XrTime lookAtUsb_ = 0; ///< real: when to look next what is plugged in
 	std::jthread opener_, heart_;
 };
 

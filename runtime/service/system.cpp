@@ -32,12 +32,19 @@ XrExtent2Di recommendedSize(const Rig &rig)
 	return {int32_t(std::ceil((fov.left + fov.right) * scale)), int32_t(std::ceil((fov.up + fov.down) * scale))};
 }
 
-ipc::Welcome welcomeOf(const Config &config, const Rig &rig, const Driver &driver, const gpu::DeviceIdentity &gpu)
+/// Where the kernel lists what is plugged in: tests have a list of their own.
+std::filesystem::path sysfs()
+{
+	const char *named = std::getenv("ARIFT_SYSFS");
+	return named && *named ? named : "/sys";
+}
+
+ipc::Welcome welcomeOf(const Config &config, const Rig &rig, const std::string &headset, const gpu::DeviceIdentity &gpu)
 {
 	ipc::Welcome welcome;
 	welcome.protocol = ipc::protocol;
 	ipc::copyText(welcome.build, buildId);
-	ipc::copyText(welcome.systemName, fmt::format("ARift ({})", driver.name()));
+	ipc::copyText(welcome.systemName, fmt::format("ARift ({})", headset));
 	const XrExtent2Di size = recommendedSize(rig);
 	welcome.recommendedWidth = uint32_t(size.width);
 	welcome.recommendedHeight = uint32_t(size.height);
@@ -71,17 +78,17 @@ System::System(World &world)
 	: world_(world),
 	  config_(world.config),
 	  rig_(rigFor(config_)),
-	  composition_(makeComposition(false)),
-	  driver_(driverFor(config_, rig_, world.clock))
+	  composition_(makeComposition(false))
 {
 	const auto first = *composition_.lock();
+	devices_ = std::make_unique<Devices>(Devices::Context{config_, rig_, world.clock, *world.poses, {&feeds_[0], &feeds_[1]},
+														  realtimeFor("tracker"), sysfs()});
 	identify(first->device().identity());
 	first->makeRenderer(); // pipelines take a second on a software renderer; Hello is answered in the meantime
 	// Held until every thread that sleeps on the clock has its own hold: a stepped world begins as a whole.
 	const Clock::Hold hold(world.clock);
-	headset_ = std::make_unique<Headset>(rig_, *driver_, world.clock, *world.poses, std::array{&feeds_[0], &feeds_[1]}, makeHostFrameBuffer,
-										 realtimeFor("tracker"));
-	log::info("{} with rig \"{}\"", driver_->name(), rig_.name);
+	devices_->open();
+	tellHeadset();
 	compose(first);
 }
 
@@ -113,8 +120,26 @@ void System::identify(const gpu::DeviceIdentity &gpu)
 	world_.views.update([&](ipc::ViewTable &views) { setViews(views, config_, rig_); });
 	world_.opened.update([&](Opened &opened) {
 		opened.stage = Stage::identified;
-		opened.welcome = welcomeOf(config_, rig_, *driver_, gpu);
+		opened.welcome = welcomeOf(config_, rig_, devices_->name(), gpu);
 	});
+}
+
+void System::tellHeadset()
+{
+	const std::string problem = devices_->problem();
+	ipc::HeadsetState state;
+	state.isMissing = problem.empty() ? 0 : 1;
+	ipc::copyText(state.problem, problem);
+	world_.system->headset.write(state);
+	world_.opened.update([&](Opened &opened) { opened.headsetProblem = problem; });
+}
+
+bool System::followHeadset()
+{
+	const Clock::Hold hold(world_.clock);
+	if (!devices_->follow()) return false;
+	tellHeadset();
+	return true;
 }
 
 void System::compose(std::shared_ptr<Composition> composition)
@@ -162,12 +187,11 @@ void System::recompose(const std::string &problem, const std::stop_token &stop)
 void System::describe(nlohmann::json &status)
 {
 	const auto composition = *composition_.lock();
-	status["headset"] = {{"name", driver_->name()},
-						 {"driver", config_.driver},
+	status["headset"] = {{"driver", config_.driver},
 						 {"rig", rig_.name},
 						 {"gpu", composition->device().identity().name},
 						 {"validationMessages", composition->device().validationMessages()}};
-	describeDevices(status, headset_->cameras(), headset_->tracker());
+	devices_->describe(status);
 }
 
 } // namespace arift

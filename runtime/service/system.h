@@ -1,7 +1,7 @@
 // What the service opens: GPU, Rig, devices, compositor; in the order in which one needs the other, so that they close the other way round.
 #pragma once
 #include "runtime/service/composition.h"
-#include "runtime/service/headset.h"
+#include "runtime/service/devices.h"
 #include "runtime/service/world.h"
 
 namespace arift
@@ -19,8 +19,12 @@ public:
 	/// and less often. Devices and head motion go on meanwhile. Throws std::runtime_error where it has failed too often in a row.
 	void recompose(const std::string &problem, const std::stop_token &stop);
 
+	/// Looks what is plugged in; true when sessions must end, for another headset, or none, has taken the place of theirs.
+	bool followHeadset();
+
 private:
 	void identify(const gpu::DeviceIdentity &gpu);
+	void tellHeadset();
 	void compose(std::shared_ptr<Composition> composition);
 	std::shared_ptr<Composition> makeComposition(bool again);
 	std::function<void()> realtimeFor(const char *thread);
@@ -32,9 +36,8 @@ private:
 	Guarded<std::shared_ptr<Composition>> composition_; ///< the current one
 	XrTime composedSince_ = 0;                          ///< real
 	int failures_ = 0;                                  ///< compositions in a row that did not last
-	std::unique_ptr<Driver> driver_;
 	std::array<CameraFeed, 2> feeds_;
-	std::unique_ptr<Headset> headset_;
+	std::unique_ptr<Devices> devices_;
 };
 
 } // namespace arift

@@ -31,6 +31,7 @@ void print(const nlohmann::json &status)
 	std::cout << fmt::format("service   {} (pid {}), up {:.0f} s, {} clock\n", service["version"].get<std::string>(),
 							 service["pid"].get<int>(), service["uptime"].get<double>(), status["clock"]["mode"].get<std::string>());
 	std::cout << fmt::format("headset   {}, rig \"{}\"\n", headset["name"].get<std::string>(), headset["rig"].get<std::string>());
+	if (const auto problem = headset["problem"].get<std::string>(); !problem.empty()) std::cout << "          " << problem << "\n";
 	std::cout << fmt::format("frames    {} shown, {:.1f} per second, {} missed, {:.1f} ms of CPU each\n", frames["shown"].get<uint64_t>(),
 							 frames["perSecond"].get<double>(), frames["missed"].get<uint64_t>(), frames["cpuMsPerFrame"].get<double>());
 	std::cout << fmt::format("          camera age {}, pose age {}, composing {}\n", figure(frames["cameraAgeMs"]),
