@@ -1,4 +1,6 @@
 #include "runtime/service/devices.h"
+#include "runtime/base/error.h"
+#include "runtime/base/error.h"
 #include "runtime/base/log.h"
 #include "runtime/service/device_threads.h"
 #include <nlohmann/json.hpp>

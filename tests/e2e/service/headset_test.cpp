@@ -65,7 +65,7 @@ TEST(WhichHeadset, APluggedInDk1EndsSimulatedSessionsAndItsRemovalBringsThemBack
 
 TEST(WhichHeadset, OneThatIsNamedIsUsedWhateverIsPluggedIn)
 {
-	PrivateService service(std::string("[headset]\ndriver = \"synthetic\"\n") + anyHeadset);
+	PrivateService service("[headset]\ndriver = \"synthetic\"\n[compositor]\ntarget = \"offscreen\"\n");
 	UsbPort(service.tree()).plugIn();
 	EXPECT_EQ(runCube(service).status, 0);
 	EXPECT_TRUE(isNamed(service.status(), "synthetic headset"));
