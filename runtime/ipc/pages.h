@@ -96,6 +96,18 @@ struct ViewTable {
 	uint32_t recenterCount = 0;
 };
 
+/// What an eye's lens shows of its view, in the plane z = -1: counter-clockwise around `centre`, within the field of view, with a point in
+/// the direction of each of its corners.
+struct LensOutline {
+	static constexpr uint32_t mostPoints = 64;
+	uint32_t count = 0;
+	uint32_t reserved = 0;
+	XrVector2f centre{};
+	std::array<XrVector2f, mostPoints> points{};
+};
+/// By eye. Written once.
+using LensOutlines = std::array<LensOutline, 2>;
+
 /// Whether there is a headset to use.
 struct HeadsetState {
 	uint32_t isMissing = 0;
@@ -126,6 +138,7 @@ struct SystemPage {
 	Published<ViewTable> views;
 	Published<TimingTable> timing;
 	Published<HeadsetState> headset;
+	Published<LensOutlines> lensOutlines;
 };
 
 enum class EventType : uint32_t { none, visibilityChanged, exitRequested, recentered, lossPending };

@@ -1,5 +1,4 @@
-// XrActionSet and XrAction. OpenXR 1.1, chapter "Input and Haptics". This headset has no controllers: every action is valid, bound to
-// nothing and inactive.
+// XrActionSet and XrAction. OpenXR 1.1, chapter "Input and Haptics".
 #pragma once
 #include "runtime/openxr/session.h"
 
@@ -9,7 +8,7 @@ namespace arift::openxr
 class ActionSet : public Object
 {
 public:
-	ActionSet(Instance &owner, std::string name, std::string localizedName);
+	ActionSet(Instance &owner, const XrActionSetCreateInfo &info);
 	~ActionSet() override;
 	void requireAlive() const override { instance.requireAlive(); }
 
@@ -36,11 +35,7 @@ public:
 	void requireType(XrActionType wanted) const;
 
 	Instance &instance;
-	const std::shared_ptr<ActionSetCore> set;
-	const XrActionType type;
-	const std::string name;
-	const std::string localizedName;
-	const std::set<XrPath> subactionPaths;
+	const std::shared_ptr<const ActionCore> core;
 };
 
 template <> struct HandleOf<Action> {

@@ -1,4 +1,4 @@
-// What a session knows of actions: which action sets are attached to it. OpenXR 1.1, chapter "Input and Haptics".
+// What action sets and actions are to those that outlive their handles: bindings and sessions. OpenXR 1.1, chapter "Input and Haptics".
 #pragma once
 #include "runtime/base/guarded.h"
 #include "runtime/openxr/error.h"
@@ -6,7 +6,6 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <vector>
 
 namespace arift::openxr
 {
@@ -36,36 +35,20 @@ struct Names {
 struct ActionSetCore {
 	std::string name;
 	std::string localizedName;
+	uint32_t priority = 0;
 	std::atomic<bool> attached{false}; ///< to any session: unchangeable from then on
 	Guarded<Names> actionNames;
 	/// Subaction paths that some action of the set was made with.
 	Guarded<std::set<XrPath>> subactionPaths;
 };
 
-/// The action sets attached to a session. Thread-safe.
-class ActionState
-{
-public:
-	/// Throws XR_ERROR_ACTIONSETS_ALREADY_ATTACHED.
-	void attach(std::vector<std::shared_ptr<ActionSetCore>> sets)
-	{
-		auto attached = attached_.lock();
-		if (!attached->empty()) throw Error(XR_ERROR_ACTIONSETS_ALREADY_ATTACHED, "action sets were attached to this session before");
-		for (const auto &set : sets) set->attached = true;
-		*attached = std::move(sets);
-	}
-	/// Throws XR_ERROR_ACTIONSET_NOT_ATTACHED.
-	void requireAttached(const ActionSetCore &set)
-	{
-		const auto attached = attached_.lock();
-		for (const auto &other : *attached)
-			if (other.get() == &set) return;
-		throw Error(XR_ERROR_ACTIONSET_NOT_ATTACHED, "action set \"{}\" is not attached to the session", set.name);
-	}
-	bool hasAny() { return !attached_.lock()->empty(); }
-
-private:
-	Guarded<std::vector<std::shared_ptr<ActionSetCore>>> attached_;
+/// What an action is to its bindings and to action spaces. Immutable.
+struct ActionCore {
+	std::shared_ptr<ActionSetCore> set;
+	XrActionType type;
+	std::string name;
+	std::string localizedName;
+	std::set<XrPath> subactionPaths;
 };
 
 } // namespace arift::openxr

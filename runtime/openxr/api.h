@@ -6,7 +6,7 @@
 #endif
 #include <vulkan/vulkan.h>
 #define XR_USE_GRAPHICS_API_VULKAN
-#include "runtime/openxr/supplement.h"
+#include "runtime/openxr/supplement_extensions.h"
 #include <openxr/openxr_platform.h>
 #include <openxr/openxr_reflection.h>
 
@@ -21,6 +21,25 @@ XR_LIST_STRUCTURE_TYPES(ARIFT_STRUCTURE)
 ARIFT_STRUCTURE(XrSpacesLocateInfo, XR_TYPE_SPACES_LOCATE_INFO)
 ARIFT_STRUCTURE(XrSpaceLocations, XR_TYPE_SPACE_LOCATIONS)
 ARIFT_STRUCTURE(XrSpaceVelocities, XR_TYPE_SPACE_VELOCITIES)
+#endif
+#ifdef ARIFT_SUPPLIES_XR_EXT_user_presence
+ARIFT_STRUCTURE(XrSystemUserPresencePropertiesEXT, XR_TYPE_SYSTEM_USER_PRESENCE_PROPERTIES_EXT)
+#endif
+#ifdef ARIFT_SUPPLIES_XR_EXT_active_action_set_priority
+ARIFT_STRUCTURE(XrActiveActionSetPrioritiesEXT, XR_TYPE_ACTIVE_ACTION_SET_PRIORITIES_EXT)
+#endif
+#ifdef ARIFT_SUPPLIES_XR_EXT_dpad_binding
+ARIFT_STRUCTURE(XrInteractionProfileDpadBindingEXT, XR_TYPE_INTERACTION_PROFILE_DPAD_BINDING_EXT)
+#endif
+#ifdef ARIFT_SUPPLIES_XR_META_performance_metrics
+ARIFT_STRUCTURE(XrPerformanceMetricsStateMETA, XR_TYPE_PERFORMANCE_METRICS_STATE_META)
+ARIFT_STRUCTURE(XrPerformanceMetricsCounterMETA, XR_TYPE_PERFORMANCE_METRICS_COUNTER_META)
+#endif
+#ifdef ARIFT_SUPPLIES_XR_META_headset_id
+ARIFT_STRUCTURE(XrSystemHeadsetIdPropertiesMETA, XR_TYPE_SYSTEM_HEADSET_ID_PROPERTIES_META)
+#endif
+#ifdef ARIFT_SUPPLIES_XR_FB_composition_layer_settings
+ARIFT_STRUCTURE(XrCompositionLayerSettingsFB, XR_TYPE_COMPOSITION_LAYER_SETTINGS_FB)
 #endif
 #undef ARIFT_STRUCTURE
 

@@ -13,8 +13,45 @@ namespace arift::openxr
 	X(KHR_vulkan_enable)                                                                                                                   \
 	X(KHR_vulkan_enable2)                                                                                                                  \
 	X(KHR_convert_timespec_time)                                                                                                           \
-	X(MND_headless)                                                                                                                        \
-	X(EXT_debug_utils)
+	X(KHR_extended_struct_name_lengths)                                                                                                    \
+	X(KHR_locate_spaces)                                                                                                                   \
+	X(KHR_maintenance1)                                                                                                                    \
+	X(KHR_visibility_mask)                                                                                                                 \
+	X(KHR_swapchain_usage_input_attachment_bit)                                                                                            \
+	X(KHR_vulkan_swapchain_format_list)                                                                                                    \
+	X(EXT_debug_utils)                                                                                                                     \
+	X(EXT_hand_tracking)                                                                                                                   \
+	X(EXT_local_floor)                                                                                                                     \
+	X(EXT_palm_pose)                                                                                                                       \
+	X(EXT_performance_settings)                                                                                                            \
+	X(EXT_user_presence)                                                                                                                   \
+	X(EXT_uuid)                                                                                                                            \
+	X(MSFT_unbounded_reference_space)                                                                                                      \
+	X(FB_color_space)                                                                                                                      \
+	X(FB_composition_layer_settings)                                                                                                       \
+	X(FB_display_refresh_rate)                                                                                                             \
+	X(META_headset_id)                                                                                                                     \
+	X(META_performance_metrics)                                                                                                            \
+	X(EXT_hand_interaction)                                                                                                                \
+	X(EXT_hp_mixed_reality_controller)                                                                                                     \
+	X(EXT_samsung_odyssey_controller)                                                                                                      \
+	X(MSFT_hand_interaction)                                                                                                               \
+	X(HTC_hand_interaction)                                                                                                                \
+	X(HTC_vive_cosmos_controller_interaction)                                                                                              \
+	X(HTC_vive_focus3_controller_interaction)                                                                                              \
+	X(ML_ml2_controller_interaction)                                                                                                       \
+	X(BD_controller_interaction)                                                                                                           \
+	X(FB_touch_controller_pro)                                                                                                             \
+	X(FB_touch_controller_proximity)                                                                                                       \
+	X(META_touch_controller_plus)                                                                                                          \
+	X(HUAWEI_controller_interaction)                                                                                                       \
+	X(OPPO_controller_interaction)                                                                                                         \
+	X(YVR_controller_interaction)                                                                                                          \
+	X(KHR_binding_modification)                                                                                                            \
+	X(EXT_active_action_set_priority)                                                                                                      \
+	X(EXT_conformance_automation)                                                                                                          \
+	X(EXT_dpad_binding)                                                                                                                    \
+	X(MND_headless)
 
 #define ARIFT_ROW(name) name,
 enum class Extension : uint32_t { ARIFT_EXTENSIONS(ARIFT_ROW) count };
@@ -42,6 +79,12 @@ public:
 
 private:
 	std::bitset<size_t(Extension::count)> enabled_;
+};
+
+/// What decides what an instance has.
+struct Features {
+	bool is1_1 = false;
+	ExtensionSet extensions;
 };
 
 inline std::optional<Extension> extensionNamed(std::string_view name)

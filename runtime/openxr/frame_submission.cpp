@@ -1,4 +1,5 @@
 #include "runtime/openxr/frame_submission.h"
+#include "runtime/openxr/ext/fb_composition_layer_settings.h"
 #include "runtime/openxr/swapchain.h"
 #include <numbers>
 
@@ -87,7 +88,8 @@ void FrameSubmission::noteUse() const
 void FrameSubmission::addLayer(const XrCompositionLayerBaseHeader *header)
 {
 	if (!header) throw Error(XR_ERROR_LAYER_INVALID, "a layer is null");
-	if (!session_.graphics()) throw Error(XR_ERROR_LAYER_INVALID, "a headless session has no layers");
+	if (!session_.graphics()) return; // a headless session shows nothing
+	if (session_.instance.has(Extension::FB_composition_layer_settings)) requireLayerSettings(header->next);
 	switch (header->type) {
 	case XR_TYPE_COMPOSITION_LAYER_PROJECTION: return addProjection(reinterpret_cast<const XrCompositionLayerProjection &>(*header));
 	case XR_TYPE_COMPOSITION_LAYER_QUAD: return addQuad(reinterpret_cast<const XrCompositionLayerQuad &>(*header));

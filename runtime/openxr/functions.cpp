@@ -1,10 +1,17 @@
 // Every function of the API by the version or extension it belongs to: what xrGetInstanceProcAddr answers, and when.
 #include "runtime/openxr/functions.h"
 #include "runtime/openxr/action.h"
+#include "runtime/openxr/ext/ext_conformance_automation.h"
 #include "runtime/openxr/ext/ext_debug_utils.h"
+#include "runtime/openxr/ext/ext_hand_tracking.h"
+#include "runtime/openxr/ext/ext_performance_settings.h"
+#include "runtime/openxr/ext/fb_color_space.h"
+#include "runtime/openxr/ext/fb_display_refresh_rate.h"
 #include "runtime/openxr/ext/khr_convert_timespec_time.h"
+#include "runtime/openxr/ext/khr_visibility_mask.h"
 #include "runtime/openxr/ext/khr_vulkan_enable.h"
 #include "runtime/openxr/ext/khr_vulkan_enable2.h"
+#include "runtime/openxr/ext/meta_performance_metrics.h"
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/session.h"
 #include "runtime/openxr/space.h"
@@ -78,7 +85,7 @@ XrResult XRAPI_CALL getInstanceProcAddrEntry(XrInstance instance, const char *na
 	X(xrGetInputSourceLocalizedName, getInputSourceLocalizedName)                                                                          \
 	X(xrApplyHapticFeedback, applyHapticFeedback)                                                                                          \
 	X(xrStopHapticFeedback, stopHapticFeedback)
-#define ARIFT_CORE_1_1(X) X(xrLocateSpaces, locateSpaces)
+#define ARIFT_CORE_1_1(X) X(xrLocateSpaces, locateSpacesOf1_1)
 #define ARIFT_KHR_vulkan_enable(X)                                                                                                         \
 	X(xrGetVulkanInstanceExtensionsKHR, getVulkanInstanceExtensions)                                                                       \
 	X(xrGetVulkanDeviceExtensionsKHR, getVulkanDeviceExtensions)                                                                           \
@@ -101,8 +108,9 @@ XrResult XRAPI_CALL getInstanceProcAddrEntry(XrInstance instance, const char *na
 	X(xrSessionEndDebugUtilsLabelRegionEXT, sessionEndDebugUtilsLabelRegion)                                                               \
 	X(xrSessionInsertDebugUtilsLabelEXT, sessionInsertDebugUtilsLabel)
 
-/// What must hold for a function to be there.
-enum class Needs { nothing, instance, version1_1, extension };
+/// What must hold for a function to be there. Those of OpenXR 1.1 say themselves that an instance of 1.0 has them not: loaders hand out
+/// their own entry points for the core, whatever the instance's version, and call what they find here.
+enum class Needs { nothing, instance, extension };
 
 struct Function {
 	const char *name;
@@ -114,7 +122,6 @@ struct Function {
 #define ARIFT_ENTRY(name, function) reinterpret_cast<PFN_xrVoidFunction>(&EntryPoint<#name, PFN_##name, function>::call)
 #define ARIFT_FREE(name, function) {#name, ARIFT_ENTRY(name, function), Needs::nothing},
 #define ARIFT_BASIC(name, function) {#name, ARIFT_ENTRY(name, function), Needs::instance},
-#define ARIFT_NEWER(name, function) {#name, ARIFT_ENTRY(name, function), Needs::version1_1},
 #define ARIFT_OF(name, function, owner) {#name, ARIFT_ENTRY(name, function), Needs::extension, Extension::owner},
 #define ARIFT_OF_vulkan_enable(name, function) ARIFT_OF(name, function, KHR_vulkan_enable)
 #define ARIFT_OF_vulkan_enable2(name, function) ARIFT_OF(name, function, KHR_vulkan_enable2)
@@ -126,11 +133,32 @@ const Function functions[] = {
 	{"xrGetInstanceProcAddr", reinterpret_cast<PFN_xrVoidFunction>(&getInstanceProcAddrEntry), Needs::nothing},
 	ARIFT_WITHOUT_INSTANCE(ARIFT_FREE)
 	ARIFT_CORE_1_0(ARIFT_BASIC)
-	ARIFT_CORE_1_1(ARIFT_NEWER)
+	ARIFT_CORE_1_1(ARIFT_BASIC)
 	ARIFT_KHR_vulkan_enable(ARIFT_OF_vulkan_enable)
 	ARIFT_KHR_vulkan_enable2(ARIFT_OF_vulkan_enable2)
 	ARIFT_KHR_convert_timespec_time(ARIFT_OF_convert_timespec_time)
 	ARIFT_EXT_debug_utils(ARIFT_OF_debug_utils)
+	ARIFT_OF(xrStructureTypeToString2KHR, structureTypeToString2, KHR_extended_struct_name_lengths)
+	ARIFT_OF(xrLocateSpacesKHR, locateSpaces, KHR_locate_spaces)
+	ARIFT_OF(xrGetVisibilityMaskKHR, getVisibilityMask, KHR_visibility_mask)
+	ARIFT_OF(xrSetInputDeviceActiveEXT, setInputDeviceActive, EXT_conformance_automation)
+	ARIFT_OF(xrSetInputDeviceStateBoolEXT, setInputDeviceStateBool, EXT_conformance_automation)
+	ARIFT_OF(xrSetInputDeviceStateFloatEXT, setInputDeviceStateFloat, EXT_conformance_automation)
+	ARIFT_OF(xrSetInputDeviceStateVector2fEXT, setInputDeviceStateVector2f, EXT_conformance_automation)
+	ARIFT_OF(xrSetInputDeviceLocationEXT, setInputDeviceLocation, EXT_conformance_automation)
+	ARIFT_OF(xrCreateHandTrackerEXT, createHandTracker, EXT_hand_tracking)
+	ARIFT_OF(xrDestroyHandTrackerEXT, destroyHandTracker, EXT_hand_tracking)
+	ARIFT_OF(xrLocateHandJointsEXT, locateHandJoints, EXT_hand_tracking)
+	ARIFT_OF(xrPerfSettingsSetPerformanceLevelEXT, setPerformanceLevel, EXT_performance_settings)
+	ARIFT_OF(xrEnumerateColorSpacesFB, enumerateColorSpaces, FB_color_space)
+	ARIFT_OF(xrSetColorSpaceFB, setColorSpace, FB_color_space)
+	ARIFT_OF(xrEnumerateDisplayRefreshRatesFB, enumerateDisplayRefreshRates, FB_display_refresh_rate)
+	ARIFT_OF(xrGetDisplayRefreshRateFB, getDisplayRefreshRate, FB_display_refresh_rate)
+	ARIFT_OF(xrRequestDisplayRefreshRateFB, requestDisplayRefreshRate, FB_display_refresh_rate)
+	ARIFT_OF(xrEnumeratePerformanceMetricsCounterPathsMETA, enumeratePerformanceMetricsCounterPaths, META_performance_metrics)
+	ARIFT_OF(xrSetPerformanceMetricsStateMETA, setPerformanceMetricsState, META_performance_metrics)
+	ARIFT_OF(xrGetPerformanceMetricsStateMETA, getPerformanceMetricsState, META_performance_metrics)
+	ARIFT_OF(xrQueryPerformanceMetricsCounterMETA, queryPerformanceMetricsCounter, META_performance_metrics)
 	// clang-format on
 };
 
@@ -138,11 +166,7 @@ bool isThere(const Function &function, const Instance *instance)
 {
 	if (function.needs == Needs::nothing) return true;
 	if (!instance) return false;
-	switch (function.needs) {
-	case Needs::version1_1: return instance->is1_1();
-	case Needs::extension: return instance->has(function.extension);
-	default: return true;
-	}
+	return function.needs == Needs::instance || instance->has(function.extension);
 }
 
 const Instance *instanceOrNull(XrInstance handle) { return handle ? &handles.at<Instance>(handle) : nullptr; }

@@ -47,6 +47,12 @@ ExtensionSet enabledExtensions(uint32_t count, const char *const *names)
 	return extensions;
 }
 
+std::string nameForPeople(XrStructureType type)
+{
+	const char *name = nameOf(type);
+	return name ? name : fmt::format("XR_UNKNOWN_STRUCTURE_TYPE_{}", int(type));
+}
+
 /// A text in the fixed buffers of xrResultToString and xrStructureTypeToString.
 template <size_t size> void writeText(char *buffer, const std::string &text)
 {
@@ -147,8 +153,12 @@ void resultToString(EvenIfLost<Instance>, XrResult result, char *buffer)
 
 void structureTypeToString(EvenIfLost<Instance>, XrStructureType type, char *buffer)
 {
-	const char *name = nameOf(type);
-	writeText<XR_MAX_STRUCTURE_NAME_SIZE>(buffer, name ? name : fmt::format("XR_UNKNOWN_STRUCTURE_TYPE_{}", int(type)));
+	writeText<XR_MAX_STRUCTURE_NAME_SIZE>(buffer, nameForPeople(type));
+}
+
+void structureTypeToString2(EvenIfLost<Instance>, XrStructureType type, char *buffer)
+{
+	writeText<XR_MAX_STRUCTURE_NAME_SIZE_EXTENDED_KHR>(buffer, nameForPeople(type));
 }
 
 void stringToPath(Instance &instance, const char *text, XrPath &path)

@@ -1,6 +1,6 @@
 // XrInstance: the connection to the service and everything that belongs to one application. OpenXR 1.1, chapters "Instance" and "System".
 #pragma once
-#include "runtime/openxr/actions.h"
+#include "runtime/openxr/bindings.h"
 #include "runtime/openxr/debug_messengers.h"
 #include "runtime/openxr/entry_point.h"
 #include "runtime/openxr/extensions.h"
@@ -34,6 +34,8 @@ public:
 
 	bool is1_1() const { return options.apiVersion >= XR_MAKE_VERSION(1, 1, 0); }
 	bool has(Extension extension) const { return options.extensions.has(extension); }
+	Features features() const { return {is1_1(), options.extensions}; }
+	bool hasLocalFloor() const { return is1_1() || has(Extension::EXT_local_floor); }
 	/// Throws XR_ERROR_SYSTEM_INVALID for what xrGetSystem did not return.
 	void requireSystem(XrSystemId system) const;
 
@@ -48,6 +50,7 @@ public:
 	Service service;
 	PathTable paths;
 	Guarded<Names> actionSetNames;
+	Guarded<Suggestions> suggestions;
 	DebugMessengers messengers;
 	/// What the application told about its graphics API before it made a session.
 	std::atomic<bool> graphicsRequirementsKnown{false};
@@ -80,6 +83,8 @@ void getInstanceProperties(EvenIfLost<Instance> instance, XrInstanceProperties &
 XrResult pollEvent(EvenIfLost<Instance> instance, XrEventDataBuffer *event);
 void resultToString(EvenIfLost<Instance> instance, XrResult result, char *buffer);
 void structureTypeToString(EvenIfLost<Instance> instance, XrStructureType type, char *buffer);
+/// XR_KHR_extended_struct_name_lengths: the same for names of any length.
+void structureTypeToString2(EvenIfLost<Instance> instance, XrStructureType type, char *buffer);
 void stringToPath(Instance &instance, const char *text, XrPath &path);
 XrResult pathToString(Instance &instance, XrPath path, OutputArray<char> buffer);
 

@@ -1,6 +1,5 @@
 #include "runtime/openxr/interaction_profiles.h"
 #include <algorithm>
-#include <array>
 
 namespace arift::openxr
 {
@@ -9,137 +8,130 @@ namespace
 
 using namespace std::literals;
 
-constexpr std::array handPaths{"/user/hand/left"sv, "/user/hand/right"sv};
-constexpr std::array headPaths{"/user/head"sv};
-constexpr std::array gamepadPaths{"/user/gamepad"sv};
-constexpr std::span<const std::string_view> hands(handPaths), head(headPaths), gamepad(gamepadPaths);
+constexpr std::string_view input = "/input/";
 
-constexpr InteractionProfile profiles[] = {
-	{"khr/simple_controller", false, hands, "select/click menu/click grip/pose aim/pose /output/haptic"},
-	{"google/daydream_controller", false, hands,
-	 "select/click trackpad trackpad/x trackpad/y trackpad/click trackpad/touch grip/pose aim/pose"},
-	{"htc/vive_controller", false, hands,
-	 "system/click squeeze/click menu/click trigger/click trigger/value trackpad trackpad/x trackpad/y "
-	 "trackpad/click trackpad/touch grip/pose aim/pose /output/haptic"},
-	{"htc/vive_pro", false, head, "system/click volume_up/click volume_down/click mute_mic/click"},
-	{"microsoft/motion_controller", false, hands,
-	 "menu/click squeeze/click trigger/value thumbstick thumbstick/x thumbstick/y thumbstick/click trackpad "
-	 "trackpad/x trackpad/y trackpad/click trackpad/touch grip/pose aim/pose /output/haptic"},
-	{"microsoft/xbox_controller", false, gamepad,
-	 "menu/click view/click a/click b/click x/click y/click dpad_down/click dpad_right/click dpad_up/click "
-	 "dpad_left/click shoulder_left/click shoulder_right/click thumbstick_left/click thumbstick_right/click "
-	 "trigger_left/value trigger_right/value thumbstick_left thumbstick_left/x thumbstick_left/y thumbstick_right "
-	 "thumbstick_right/x thumbstick_right/y /output/haptic_left /output/haptic_right /output/haptic_left_trigger "
-	 "/output/haptic_right_trigger"},
-	{"oculus/go_controller", false, hands,
-	 "system/click trigger/click back/click trackpad trackpad/x trackpad/y trackpad/click trackpad/touch grip/pose "
-	 "aim/pose"},
-	{"oculus/touch_controller", false, hands,
-	 "L:x/click L:x/touch L:y/click L:y/touch L:menu/click R:a/click R:a/touch R:b/click R:b/touch R:system/click "
-	 "squeeze/value trigger/value trigger/touch thumbstick thumbstick/x thumbstick/y thumbstick/click "
-	 "thumbstick/touch thumbrest/touch grip/pose aim/pose /output/haptic"},
-	{"valve/index_controller", false, hands,
-	 "system/click system/touch a/click a/touch b/click b/touch squeeze/value squeeze/force trigger/click "
-	 "trigger/value trigger/touch thumbstick thumbstick/x thumbstick/y thumbstick/click thumbstick/touch trackpad "
-	 "trackpad/x trackpad/y trackpad/force trackpad/touch grip/pose aim/pose /output/haptic"},
-	{"bytedance/pico_neo3_controller", true, hands,
-	 "L:x/click L:x/touch L:y/click L:y/touch R:a/click R:a/touch R:b/click R:b/touch system/click menu/click "
-	 "squeeze/click squeeze/value trigger/click trigger/touch trigger/value thumbstick thumbstick/x thumbstick/y "
-	 "thumbstick/click thumbstick/touch grip/pose aim/pose /output/haptic"},
-	{"bytedance/pico4_controller", true, hands,
-	 "L:x/click L:x/touch L:y/click L:menu/click L:y/touch R:a/click R:a/touch R:b/click R:b/touch system/click "
-	 "squeeze/click squeeze/value trigger/click trigger/touch trigger/value thumbstick thumbstick/x thumbstick/y "
-	 "thumbstick/click thumbstick/touch grip/pose aim/pose /output/haptic"},
-	{"bytedance/pico_g3_controller", true, hands,
-	 "trigger/click trigger/value menu/click grip/pose aim/pose thumbstick thumbstick/x thumbstick/y "
-	 "thumbstick/click"},
-	{"hp/mixed_reality_controller", true, hands,
-	 "L:x/click L:y/click R:a/click R:b/click menu/click squeeze/value trigger/value thumbstick thumbstick/x "
-	 "thumbstick/y thumbstick/click grip/pose aim/pose /output/haptic"},
-	{"htc/vive_cosmos_controller", true, hands,
-	 "L:x/click L:y/click L:menu/click R:a/click R:b/click R:system/click shoulder/click squeeze/click trigger/click "
-	 "trigger/value thumbstick thumbstick/x thumbstick/y thumbstick/click thumbstick/touch grip/pose aim/pose "
-	 "/output/haptic"},
-	{"htc/vive_focus3_controller", true, hands,
-	 "L:x/click L:y/click L:menu/click R:a/click R:b/click R:system/click squeeze/click squeeze/touch squeeze/value "
-	 "trigger/click trigger/touch trigger/value thumbstick thumbstick/x thumbstick/y thumbstick/click "
-	 "thumbstick/touch thumbrest/touch grip/pose aim/pose /output/haptic"},
-	{"meta/touch_controller_quest_1_rift_s", true, hands,
-	 "L:x/click L:x/touch L:y/click L:y/touch L:menu/click R:a/click R:a/touch R:b/click R:b/touch R:system/click "
-	 "squeeze/value trigger/value trigger/touch trigger/proximity thumb_resting_surfaces/proximity thumbstick "
-	 "thumbstick/x thumbstick/y thumbstick/click thumbstick/touch grip/pose aim/pose /output/haptic"},
-	{"meta/touch_controller_quest_2", true, hands,
-	 "L:x/click L:x/touch L:y/click L:y/touch L:menu/click R:a/click R:a/touch R:b/click R:b/touch R:system/click "
-	 "squeeze/value trigger/value trigger/touch trigger/proximity thumb_resting_surfaces/proximity thumbstick "
-	 "thumbstick/x thumbstick/y thumbstick/click thumbstick/touch thumbrest/touch grip/pose aim/pose /output/haptic"},
-	{"meta/touch_controller_rift_cv1", true, hands,
-	 "L:x/click L:x/touch L:y/click L:y/touch L:menu/click R:a/click R:a/touch R:b/click R:b/touch R:system/click "
-	 "squeeze/value trigger/value trigger/touch trigger/proximity thumb_resting_surfaces/proximity thumbstick "
-	 "thumbstick/x thumbstick/y thumbstick/click thumbstick/touch thumbrest/touch grip/pose aim/pose /output/haptic"},
-	{"meta/touch_plus_controller", true, hands,
-	 "L:x/click L:x/touch L:y/click L:y/touch L:menu/click R:a/click R:a/touch R:b/click R:b/touch R:system/click "
-	 "squeeze/value trigger/value trigger/touch thumbstick thumbstick/x thumbstick/y thumbstick/click "
-	 "thumbstick/touch thumbrest/touch grip/pose aim/pose /output/haptic thumb_resting_surfaces/proximity "
-	 "trigger/proximity trigger_curl/value trigger_slide/value trigger/force"},
-	{"meta/touch_pro_controller", true, hands,
-	 "L:x/click L:x/touch L:y/click L:y/touch L:menu/click R:a/click R:a/touch R:b/click R:b/touch R:system/click "
-	 "squeeze/value trigger/value trigger/touch thumbstick thumbstick/x thumbstick/y thumbstick/click "
-	 "thumbstick/touch thumbrest/touch grip/pose aim/pose /output/haptic thumbrest/force stylus/force "
-	 "thumb_resting_surfaces/proximity trigger_curl/value trigger_slide/value trigger/proximity "
-	 "/output/haptic_trigger /output/haptic_thumb"},
-	{"ml/ml2_controller", true, hands,
-	 "menu/click home/click trigger/click trigger/value trackpad trackpad/x trackpad/y trackpad/click trackpad/force "
-	 "trackpad/touch grip/pose aim/pose shoulder/click /output/haptic"},
-	{"samsung/odyssey_controller", true, hands,
-	 "menu/click squeeze/click trigger/value thumbstick thumbstick/x thumbstick/y thumbstick/click trackpad "
-	 "trackpad/x trackpad/y trackpad/click trackpad/touch grip/pose aim/pose /output/haptic"},
-};
-
-/// Whether one word of the components is what `rest` (the path after the user path) asks for.
-bool matches(std::string_view component, std::string_view rest)
+bool isThere(const InteractionProfile &profile, const Features &features)
 {
-	if (component.starts_with('/')) return component == rest;
-	constexpr std::string_view folder = "/input/";
-	if (!rest.starts_with(folder)) return false;
-	rest.remove_prefix(folder.size());
-	// "Input Source Paths": the last component may be left out, the runtime then chooses.
-	return component.starts_with(rest) && (component.size() == rest.size() || component[rest.size()] == '/');
+	const bool inCore = profile.since == Since::version1_0 || (profile.since == Since::version1_1 && features.is1_1);
+	return inCore || (profile.extension != Extension::count && features.extensions.has(profile.extension));
+}
+
+XrActionType typeOf(char letter)
+{
+	switch (letter) {
+	case 'b': return XR_ACTION_TYPE_BOOLEAN_INPUT;
+	case 'f': return XR_ACTION_TYPE_FLOAT_INPUT;
+	case 'v': return XR_ACTION_TYPE_VECTOR2F_INPUT;
+	case 'p': return XR_ACTION_TYPE_POSE_INPUT;
+	default: return XR_ACTION_TYPE_VIBRATION_OUTPUT;
+	}
+}
+
+bool takePrefix(std::string_view &word, std::string_view prefix)
+{
+	if (!word.starts_with(prefix)) return false;
+	word.remove_prefix(prefix.size());
+	return true;
+}
+
+/// One word of InteractionProfile::components; nothing where it is not for this hand or not there.
+std::optional<Component> componentIn(std::string_view word, std::string_view userPath, const Features &features)
+{
+	if (takePrefix(word, "L:") && !userPath.ends_with("/left")) return {};
+	if (takePrefix(word, "R:") && !userPath.ends_with("/right")) return {};
+	if (takePrefix(word, "1.1:") && !features.is1_1) return {};
+	if (takePrefix(word, "fb:") && !features.extensions.has(Extension::FB_touch_controller_proximity)) return {};
+	const size_t colon = word.rfind(':');
+	const std::string_view path = word.substr(0, colon);
+	return Component{path.starts_with('/') ? std::string(path) : std::string(input).append(path), typeOf(word[colon + 1])};
+}
+
+bool isHand(std::string_view userPath) { return userPath.ends_with("/left") || userPath.ends_with("/right"); }
+
+/// XR_EXT_dpad_binding: every thumbstick and trackpad is a directional pad as well; only the latter has a centre to press.
+void addDirections(std::vector<Component> &components)
+{
+	for (size_t i = 0, count = components.size(); i < count; ++i) {
+		if (components[i].type != XR_ACTION_TYPE_VECTOR2F_INPUT) continue;
+		const std::string pad = components[i].path;
+		for (const std::string_view direction : {"up"sv, "down"sv, "left"sv, "right"sv, "center"sv})
+			if (direction != "center" || pad.ends_with("trackpad"))
+				components.push_back({pad + "/dpad_" + std::string(direction), XR_ACTION_TYPE_BOOLEAN_INPUT});
+	}
+}
+
+/// How well a component suits an action that was bound to its parent; the least is the best.
+size_t unsuitability(std::string_view component, XrActionType type)
+{
+	constexpr std::array forBoolean{"/click"sv, "/value"sv, "/force"sv, "/touch"sv};
+	constexpr std::array forFloat{"/value"sv, "/force"sv, "/click"sv};
+	const std::span<const std::string_view> wanted =
+		type == XR_ACTION_TYPE_FLOAT_INPUT ? std::span<const std::string_view>(forFloat) : std::span<const std::string_view>(forBoolean);
+	const auto found = std::ranges::find_if(wanted, [&](std::string_view ending) { return component.ends_with(ending); });
+	return size_t(found - wanted.begin());
 }
 
 } // namespace
 
-bool InteractionProfile::has(std::string_view path, bool is1_1) const
+const InteractionProfile *findInteractionProfile(std::string_view path, const Features &features)
 {
-	const auto user = std::ranges::find_if(userPaths, [&](std::string_view candidate) { return path.starts_with(candidate); });
-	if (user == userPaths.end()) return false;
-	const std::string_view rest = path.substr(user->size());
-	const std::string_view otherHand = *user == handPaths[0] ? "R:" : "L:";
-	if (is1_1 && *user != headPaths[0] && *user != gamepadPaths[0] && matches("grip_surface/pose", rest)) return true;
-	for (size_t begin = 0; begin < components.size();) {
-		const size_t end = std::min(components.find(' ', begin), components.size());
-		std::string_view component = components.substr(begin, end - begin);
-		begin = end + 1;
-		if (component.starts_with(otherHand)) continue;
-		if (component.starts_with("L:") || component.starts_with("R:")) component.remove_prefix(2);
-		if (matches(component, rest)) return true;
-	}
-	return false;
-}
-
-const InteractionProfile *findInteractionProfile(std::string_view path, bool is1_1)
-{
-	constexpr std::string_view folder = "/interaction_profiles/";
-	if (!path.starts_with(folder)) return nullptr;
-	path.remove_prefix(folder.size());
-	for (const InteractionProfile &profile : profiles)
-		if (profile.name == path && (is1_1 || !profile.since1_1)) return &profile;
+	if (!takePrefix(path, "/interaction_profiles/")) return nullptr;
+	for (const InteractionProfile &profile : interactionProfiles())
+		if (profile.name == path && isThere(profile, features)) return &profile;
 	return nullptr;
 }
 
-bool isTopLevelUserPath(std::string_view path)
+std::vector<Component> componentsOf(const InteractionProfile &profile, std::string_view userPath, const Features &features)
+{
+	std::vector<Component> components;
+	for (std::string_view rest = profile.components; !rest.empty();) {
+		const size_t end = std::min(rest.find(' '), rest.size());
+		if (auto component = componentIn(rest.substr(0, end), userPath, features)) components.push_back(std::move(*component));
+		rest.remove_prefix(std::min(end + 1, rest.size()));
+	}
+	const auto addPose = [&](const char *path) { components.push_back({path, XR_ACTION_TYPE_POSE_INPUT}); };
+	if (isHand(userPath)) {
+		if (features.is1_1 || features.extensions.has(Extension::KHR_maintenance1)) addPose("/input/grip_surface/pose");
+		if (features.extensions.has(Extension::EXT_palm_pose)) addPose("/input/palm_ext/pose");
+		if (features.extensions.has(Extension::EXT_hand_interaction)) {
+			addPose("/input/pinch_ext/pose");
+			addPose("/input/poke_ext/pose");
+		}
+	}
+	if (features.extensions.has(Extension::EXT_dpad_binding)) addDirections(components);
+	return components;
+}
+
+std::optional<SourcePath> splitSource(const InteractionProfile &profile, std::string_view path)
+{
+	for (const std::string_view user : profile.userPaths)
+		if (path.starts_with(user) && path.size() > user.size() && path[user.size()] == '/')
+			return SourcePath{path.substr(0, user.size()), path.substr(user.size())};
+	return std::nullopt;
+}
+
+std::optional<Component> resolveSource(const InteractionProfile &profile, std::string_view path, XrActionType type,
+									   const Features &features)
+{
+	const auto source = splitSource(profile, path);
+	if (!source || source->rest.find('/', 1) == source->rest.npos) return std::nullopt;
+	const std::vector<Component> components = componentsOf(profile, source->user, features);
+	const Component *best = nullptr;
+	for (const Component &component : components) {
+		if (component.path == source->rest) return component;
+		const bool isBelow = component.path.starts_with(source->rest) && component.path[source->rest.size()] == '/';
+		if (!isBelow) continue;
+		if (!best || unsuitability(component.path, type) < unsuitability(best->path, type)) best = &component;
+	}
+	return best ? std::optional(*best) : std::nullopt;
+}
+
+bool isTopLevelUserPath(std::string_view path, const Features &features)
 {
 	constexpr std::array all{"/user/hand/left"sv, "/user/hand/right"sv, "/user/head"sv, "/user/gamepad"sv, "/user/treadmill"sv};
-	return std::ranges::find(all, path) != all.end();
+	constexpr std::array htcHands{"/user/hand_htc/left"sv, "/user/hand_htc/right"sv};
+	if (std::ranges::find(all, path) != all.end()) return true;
+	return features.extensions.has(Extension::HTC_hand_interaction) && std::ranges::find(htcHands, path) != htcHands.end();
 }
 
 } // namespace arift::openxr

@@ -21,13 +21,17 @@ bool isWellFormedPath(std::string_view path)
 	}
 }
 
+XrPath PathTable::known(std::string_view text) const
+{
+	std::shared_lock lock(mutex_);
+	const auto found = atoms_.find(text);
+	return found == atoms_.end() ? XR_NULL_PATH : found->second;
+}
+
 XrPath PathTable::atom(std::string_view text)
 {
 	if (!isWellFormedPath(text)) throw Error(XR_ERROR_PATH_FORMAT_INVALID, "\"{}\" is not a well-formed path", text);
-	{
-		std::shared_lock lock(mutex_);
-		if (const auto known = atoms_.find(text); known != atoms_.end()) return known->second;
-	}
+	if (const XrPath found = known(text); found != XR_NULL_PATH) return found;
 	std::unique_lock lock(mutex_);
 	if (const auto known = atoms_.find(text); known != atoms_.end()) return known->second;
 	if (texts_.size() >= 1u << 20) throw Error(XR_ERROR_PATH_COUNT_EXCEEDED, "{} paths exist already", texts_.size());

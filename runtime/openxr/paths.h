@@ -22,6 +22,8 @@ class PathTable
 public:
 	/// Throws XR_ERROR_PATH_FORMAT_INVALID.
 	XrPath atom(std::string_view text);
+	/// XR_NULL_PATH for what is no atom yet.
+	XrPath known(std::string_view text) const;
 	/// Throws XR_ERROR_PATH_INVALID for what atom() never returned.
 	const std::string &text(XrPath path) const;
 

@@ -34,6 +34,7 @@ public:
 	ipc::ViewTable views() const { return read(system_->views); }
 	ipc::TimingTable timing() const { return read(system_->timing); }
 	ipc::HeadsetState headset() const { return read(system_->headset); }
+	ipc::LensOutlines lensOutlines() const { return read(system_->lensOutlines); }
 	ClockAnchor clock() const;
 	/// Now, in the time of the service's clock.
 	XrTime now() const { return clock().at(realTime()); }

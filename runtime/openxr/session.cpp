@@ -63,8 +63,8 @@ void Session::tellService(bool running)
 
 void Session::begin(XrViewConfigurationType type)
 {
-	// A headless session has no views: XR_MND_headless lets the type be anything.
-	if (graphics_) requireStereo(type);
+	// A headless session has no views: XR_MND_headless lets the type be 0.
+	if (graphics_ || int(type) != 0) requireStereo(type);
 	{
 		const auto life = life_->lock();
 		if (life->facts.begun) throw Error(XR_ERROR_SESSION_RUNNING, "the session is running already");

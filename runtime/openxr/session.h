@@ -2,6 +2,7 @@
 #pragma once
 #include "runtime/openxr/debug_labels.h"
 #include "runtime/openxr/graphics.h"
+#include "runtime/openxr/input.h"
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/session_life.h"
 #include "runtime/openxr/submitter.h"
@@ -10,6 +11,12 @@ namespace arift::openxr
 {
 
 class Swapchain;
+
+/// What the application's newest frame cost it.
+struct FrameCost {
+	uint64_t frames = 0;        ///< measured so far
+	XrDuration application = 0; ///< from xrWaitFrame's return to xrEndFrame, real time
+};
 
 class Session : public Object
 {
@@ -34,6 +41,8 @@ public:
 	void end();
 	void requestExit();
 	void takeNews() { life_->takeNews(); }
+	/// An event of an extension or of the input, in the order of all.
+	template <typename Event> void tell(const Event &event) { life_->tell(event); }
 	XrSessionState state() const { return life_->state(); }
 	bool isFocused() const { return state() == XR_SESSION_STATE_FOCUSED; }
 
@@ -47,9 +56,13 @@ public:
 	/// Nothing that names this session's images is left unsent.
 	void drainSubmissions();
 
+	FrameCost frameCost() const { return *frameCost_.lock(); }
+
 	Instance &instance;
-	ActionState actions;
+	Input input;
 	DebugLabels labels;
+	/// Whether frameCost() is kept.
+	std::atomic<bool> measuresFrames{false};
 
 private:
 	/// The service's answer, and how much news it had written before it was asked.
@@ -67,7 +80,9 @@ private:
 	[[noreturn]] void loseFrames(const char *why);
 
 	std::unique_ptr<Graphics> graphics_;
-	std::atomic<uint64_t> submitted_{0}; ///< frames handed to the submitter
+	std::atomic<uint64_t> submitted_{0};           ///< frames handed to the submitter
+	std::atomic<XrTime> waitedAt_{0}, begunAt_{0}; ///< real: xrWaitFrame's return for the newest frame, and for the one begun
+	mutable Guarded<FrameCost> frameCost_;
 	const uint32_t id_;
 	const std::shared_ptr<SessionLife> life_;
 	const std::unique_ptr<ipc::Socket> frames_;

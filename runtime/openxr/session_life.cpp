@@ -76,7 +76,7 @@ void SessionLife::tellRecentered(Life &life, const ipc::Event &news) const
 																news.time, XR_TRUE, news.pose});
 	};
 	tell(XR_REFERENCE_SPACE_TYPE_LOCAL);
-	if (instance_.is1_1()) tell(XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR);
+	if (instance_.hasLocalFloor()) tell(XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR);
 }
 
 void SessionLife::settleLocked(Life &life)

@@ -40,6 +40,7 @@ public:
 			settleLocked(life);
 		});
 	}
+	template <typename Event> void tell(const Event &event) { life_.lock()->events.push(event); }
 	/// For looking, and for waiting until it is as wanted.
 	Guarded<Life>::Access lock() { return life_.lock(); }
 

@@ -22,22 +22,33 @@ XrSpaceLocationFlags flagsOf(const HeadMotion &head)
 	}
 }
 
-std::optional<Space::Kind> kindOf(XrReferenceSpaceType type, bool is1_1)
+struct ReferenceSpace {
+	XrReferenceSpaceType type;
+	Space::Kind kind;
+};
+constexpr std::array referenceSpaces{
+	ReferenceSpace{XR_REFERENCE_SPACE_TYPE_VIEW, Space::Kind::view},
+	ReferenceSpace{XR_REFERENCE_SPACE_TYPE_LOCAL, Space::Kind::local},
+	ReferenceSpace{XR_REFERENCE_SPACE_TYPE_STAGE, Space::Kind::stage},
+	ReferenceSpace{XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR, Space::Kind::localFloor},
+	ReferenceSpace{XR_REFERENCE_SPACE_TYPE_UNBOUNDED_MSFT, Space::Kind::unbounded},
+};
+
+/// Whether the instance's version and extensions have it.
+bool isThere(const Instance &instance, const ReferenceSpace &space)
 {
-	switch (int(type)) {
-	case XR_REFERENCE_SPACE_TYPE_VIEW: return Space::Kind::view;
-	case XR_REFERENCE_SPACE_TYPE_LOCAL: return Space::Kind::local;
-	case XR_REFERENCE_SPACE_TYPE_STAGE: return Space::Kind::stage;
-	case XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR: return is1_1 ? std::optional(Space::Kind::localFloor) : std::nullopt;
-	default: return std::nullopt;
+	switch (space.kind) {
+	case Space::Kind::localFloor: return instance.hasLocalFloor();
+	case Space::Kind::unbounded: return instance.has(Extension::MSFT_unbounded_reference_space);
+	default: return true;
 	}
 }
 
 Space::Kind requireReferenceSpace(const Session &session, XrReferenceSpaceType type)
 {
-	const auto kind = kindOf(type, session.instance.is1_1());
-	if (!kind) throw Error(XR_ERROR_REFERENCE_SPACE_UNSUPPORTED, "reference space {} is not supported", int(type));
-	return *kind;
+	for (const ReferenceSpace &space : referenceSpaces)
+		if (space.type == type && isThere(session.instance, space)) return space.kind;
+	throw Error(XR_ERROR_REFERENCE_SPACE_UNSUPPORTED, "reference space {} is not supported", int(type));
 }
 
 void requireSameSession(const Session &session, const Space &space, const char *what)
@@ -59,6 +70,7 @@ template <typename Frame> Frame referenceInOrigin(Space::Kind kind, const ipc::V
 	case Space::Kind::local: return {localInOrigin(views)};
 	case Space::Kind::localFloor: return {localFloorInOrigin(views)};
 	case Space::Kind::stage: return {stageInOrigin(views)};
+	case Space::Kind::unbounded: return {identityPose};
 	default:
 		if constexpr (std::is_same_v<Frame, XrPosef>)
 			return headInOrigin(views, head);
@@ -115,9 +127,17 @@ Locator::Locator(const Session &session, XrTime time)
 
 template <typename Frame> std::optional<Frame> Locator::inOrigin(const Space &space) const
 {
-	if (space.kind == Space::Kind::action || (space.isHeadLocked() && head_.found == Found::none)) return std::nullopt;
+	if (space.kind == Space::Kind::action) return actionInOrigin<Frame>(space);
+	if (space.isHeadLocked() && head_.found == Found::none) return std::nullopt;
 	const auto reference = referenceInOrigin<Frame>(space.kind, views_, head_);
 	return space.isOffset ? carried(reference, space.offset) : reference;
+}
+
+template <typename Frame> std::optional<Frame> Locator::actionInOrigin(const Space &space) const
+{
+	const std::optional<Placed> place = space.session.input.result(*space.action, space.subactionPath).place;
+	if (!place || (place->reference == Space::Kind::view && head_.found == Found::none)) return std::nullopt;
+	return carried(referenceInOrigin<Frame>(place->reference, views_, head_), place->pose * space.offset);
 }
 
 template std::optional<XrPosef> Locator::inOrigin(const Space &space) const;
@@ -128,11 +148,18 @@ std::optional<XrPosef> Locator::headAt(XrTime time) const
 	return then.found == Found::none ? std::nullopt : std::optional(headInOrigin(views_, then));
 }
 
+Placed placedIn(const Space &space, const XrPosef &pose)
+{
+	if (space.kind == Space::Kind::action) throw Error(XR_ERROR_VALIDATION_FAILURE, "the space is an action's, not a reference space");
+	return {space.kind, space.offset * requirePose(pose, "the pose")};
+}
+
 XrResult enumerateReferenceSpaces(Session &session, OutputArray<XrReferenceSpaceType> types)
 {
-	constexpr std::array all{XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL, XR_REFERENCE_SPACE_TYPE_STAGE,
-							 XR_REFERENCE_SPACE_TYPE_LOCAL_FLOOR};
-	return types.assign(std::span(all).first(session.instance.is1_1() ? 4 : 3));
+	std::vector<XrReferenceSpaceType> there;
+	for (const ReferenceSpace &space : referenceSpaces)
+		if (isThere(session.instance, space)) there.push_back(space.type);
+	return types.assign(there);
 }
 
 void createReferenceSpace(Session &session, const XrReferenceSpaceCreateInfo &info, XrSpace &space)
@@ -155,11 +182,10 @@ XrResult getReferenceSpaceBoundsRect(Session &session, XrReferenceSpaceType type
 void createActionSpace(Session &session, const XrActionSpaceCreateInfo &info, XrSpace &space)
 {
 	const Action &action = handles.at<Action>(info.action);
-	if (action.type != XR_ACTION_TYPE_POSE_INPUT)
-		throw Error(XR_ERROR_ACTION_TYPE_MISMATCH, "action \"{}\" is not a pose input", action.name);
+	action.requireType(XR_ACTION_TYPE_POSE_INPUT);
 	action.requireSubaction(info.subactionPath);
 	const XrPosef pose = requirePose(info.poseInActionSpace, "poseInActionSpace");
-	space = handles.insert(std::make_unique<Space>(session, Space::Kind::action, pose), &session);
+	space = handles.insert(std::make_unique<Space>(session, action.core, info.subactionPath, pose), &session);
 }
 
 void locateSpace(Space &space, EvenIfLost<Space> base, XrTime time, XrSpaceLocation &location)
@@ -196,6 +222,12 @@ void locateSpaces(Session &session, const XrSpacesLocateInfo &info, XrSpaceLocat
 		locations.locations[i] = {located.flags, located.frame.pose};
 		if (velocities) writeVelocity(located, velocities->velocities[i]);
 	}
+}
+
+void locateSpacesOf1_1(Session &session, const XrSpacesLocateInfo &info, XrSpaceLocations &locations)
+{
+	if (!session.instance.is1_1()) throw Error(XR_ERROR_FUNCTION_UNSUPPORTED, "xrLocateSpaces is of OpenXR 1.1, the instance of 1.0");
+	locateSpaces(session, info, locations);
 }
 
 void destroySpace(EvenIfLost<Space> space) { handles.destroy(*space); }

@@ -16,11 +16,21 @@ class Space : public Object
 	}
 
 public:
-	/// A reference space, or an action space: nothing is bound to any action yet, so those have no place.
-	enum class Kind { view, local, localFloor, stage, action };
+	using Kind = SpaceKind;
 
+	/// A reference space.
 	Space(Session &owner, Kind what, const XrPosef &poseInBase)
 		: session(owner), kind(what), offset(poseInBase), isOffset(!isIdentity(poseInBase))
+	{
+	}
+	/// An action space.
+	Space(Session &owner, std::shared_ptr<const ActionCore> pose, XrPath subaction, const XrPosef &poseInAction)
+		: session(owner),
+		  kind(Kind::action),
+		  offset(poseInAction),
+		  isOffset(!isIdentity(poseInAction)),
+		  action(std::move(pose)),
+		  subactionPath(subaction)
 	{
 	}
 	void requireAlive() const override { session.requireAlive(); }
@@ -30,8 +40,10 @@ public:
 
 	Session &session;
 	const Kind kind;
-	const XrPosef offset; ///< this space in the reference space or action it is derived from
-	const bool isOffset;  ///< most are not
+	const XrPosef offset;                           ///< this space in the reference space or action it is derived from
+	const bool isOffset;                            ///< most are not
+	const std::shared_ptr<const ActionCore> action; ///< Kind::action
+	const XrPath subactionPath = XR_NULL_PATH;      ///< of the action
 };
 
 template <> struct HandleOf<Space> {
@@ -53,10 +65,15 @@ public:
 	std::optional<XrPosef> headAt(XrTime time) const;
 
 private:
+	template <typename Frame> std::optional<Frame> actionInOrigin(const Space &space) const;
+
 	ipc::ViewTable views_;
 	PoseMoment poses_;
 	HeadMotion head_;
 };
+
+/// Where a pose in a reference space is, whatever becomes of the space. Throws XR_ERROR_VALIDATION_FAILURE for an action's space.
+Placed placedIn(const Space &space, const XrPosef &pose);
 
 /// Throws XR_ERROR_TIME_INVALID.
 void requireTime(XrTime time);
@@ -69,6 +86,8 @@ XrResult getReferenceSpaceBoundsRect(Session &session, XrReferenceSpaceType type
 void createActionSpace(Session &session, const XrActionSpaceCreateInfo &info, XrSpace &space);
 void locateSpace(Space &space, EvenIfLost<Space> base, XrTime time, XrSpaceLocation &location);
 void locateSpaces(Session &session, const XrSpacesLocateInfo &info, XrSpaceLocations &locations);
+/// As locateSpaces, for the core of OpenXR 1.1. Throws XR_ERROR_FUNCTION_UNSUPPORTED for an instance of 1.0.
+void locateSpacesOf1_1(Session &session, const XrSpacesLocateInfo &info, XrSpaceLocations &locations);
 void destroySpace(EvenIfLost<Space> space);
 XrResult locateViews(Session &session, const XrViewLocateInfo &info, XrViewState &state, OutputArray<XrView> views);
 

@@ -1,4 +1,6 @@
 #include "runtime/openxr/swapchain.h"
+#include "runtime/openxr/ext/khr_swapchain_usage_input_attachment_bit.h"
+#include "runtime/openxr/ext/khr_vulkan_swapchain_format_list.h"
 #include <algorithm>
 #include <bit>
 
@@ -39,6 +41,8 @@ void requireCreateInfo(const XrSwapchainCreateInfo &info, const ipc::Welcome &we
 gpu::ImageSpec specFor(const Session &session, const XrSwapchainCreateInfo &info)
 {
 	requireCreateInfo(info, session.instance.service.welcome());
+	requireInputAttachmentUsage(session.instance, info.usageFlags);
+	requireFormatList(session.instance, info);
 	if (!session.graphics()) throw Error(XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED, "a headless session has no swapchains");
 	return session.graphics()->specOf(info);
 }

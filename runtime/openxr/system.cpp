@@ -1,8 +1,24 @@
 // The one system: a head-mounted display with two views. Everything about it was told by the service when this process connected.
+#include "runtime/openxr/ext/ext_hand_tracking.h"
+#include "runtime/openxr/ext/ext_user_presence.h"
+#include "runtime/openxr/ext/fb_color_space.h"
+#include "runtime/openxr/ext/meta_headset_id.h"
 #include "runtime/openxr/instance.h"
 
 namespace arift::openxr
 {
+namespace
+{
+
+/// Fills the structure that an extension adds to XrSystemProperties, where it is enabled and asked for.
+template <typename Properties>
+void describe(const Instance &instance, Extension extension, void *next, void (*fill)(Properties &properties))
+{
+	if (!instance.has(extension)) return;
+	if (auto *properties = findInChain<Properties>(next)) fill(*properties);
+}
+
+} // namespace
 
 void requireStereo(XrViewConfigurationType type)
 {
@@ -29,6 +45,10 @@ void getSystemProperties(Instance &instance, XrSystemId system, XrSystemProperti
 	ipc::copyText(properties.systemName, ipc::textOf(welcome.systemName));
 	properties.graphicsProperties = {welcome.maxHeight, welcome.maxWidth, welcome.maxLayers};
 	properties.trackingProperties = {welcome.orientationTracking != 0, welcome.positionTracking != 0};
+	describe(instance, Extension::EXT_hand_tracking, properties.next, describeHandTracking);
+	describe(instance, Extension::EXT_user_presence, properties.next, describeUserPresence);
+	describe(instance, Extension::FB_color_space, properties.next, describeColorSpace);
+	describe(instance, Extension::META_headset_id, properties.next, describeHeadsetId);
 }
 
 XrResult enumerateEnvironmentBlendModes(Instance &instance, XrSystemId system, XrViewConfigurationType type,

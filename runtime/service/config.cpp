@@ -32,6 +32,14 @@ std::vector<XrEnvironmentBlendMode> blendModes(TomlTable &passthrough)
 	return modes;
 }
 
+std::array<double, 2> bounds(TomlTable &space)
+{
+	const std::vector<double> metres = space.numbers("bounds", 2);
+	for (const double extent : metres)
+		if (!(extent >= 0 && extent <= 100)) space.complain("bounds", "width and depth in metres, each from 0 to 100");
+	return {metres[0], metres[1]};
+}
+
 std::string driver(TomlTable &headset)
 {
 	const std::string name = headset.text("driver", Config().driver);
@@ -65,6 +73,11 @@ Config decode(std::shared_ptr<const TomlDocument> document)
 	config.viewOffset = passthrough.number("view_offset", 0, 1, config.viewOffset);
 	if (passthrough.has("blend_modes")) config.blendModes = blendModes(passthrough);
 	passthrough.finish();
+
+	TomlTable space = root.table("space");
+	config.eyeHeight = space.number("eye_height", 0, 3, config.eyeHeight);
+	if (space.has("bounds")) config.bounds = bounds(space);
+	space.finish();
 
 	TomlTable compositor = root.table("compositor");
 	config.target = TargetKind(compositor.choice("target", {"auto", "offscreen", "window"}, size_t(config.target)));

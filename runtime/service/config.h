@@ -1,6 +1,7 @@
 // What a person decides about the service: the configuration file, and what the command line puts above it.
 #pragma once
 #include "runtime/base/xr.h"
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -27,6 +28,8 @@ struct Config {
 	std::vector<XrEnvironmentBlendMode> blendModes{///< [passthrough] blend_modes, the favourite first
 												   XR_ENVIRONMENT_BLEND_MODE_OPAQUE, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND,
 												   XR_ENVIRONMENT_BLEND_MODE_ADDITIVE};
+	double eyeHeight = 1.6;             ///< [space] eye_height, metres
+	std::array<double, 2> bounds{2, 2}; ///< [space] bounds, metres
 	TargetKind target = TargetKind::automatic; ///< [compositor] target
 };
 

@@ -37,7 +37,7 @@ ipc::FrameReady Session::answer(State &state)
 	ipc::FrameReady ready;
 	ready.header.sequence = state.announced;
 	ready.predictedDisplayTime = state.current.displayTime;
-	ready.predictedDisplayPeriod = state.current.period;
+	ready.predictedDisplayPeriod = state.pace.period();
 	ready.shouldRender = state.running;
 	state.waiting = false;
 	state.answered = state.current.displayTime;
@@ -77,6 +77,7 @@ void Session::wake(const Opportunity &opportunity)
 	Afterwards afterwards;
 	state_.update([&](State &state) {
 		state.current = opportunity;
+		state.pace.offer(opportunity.displayTime, opportunity.period);
 		if (!state.waiting || opportunity.displayTime <= state.answered) return;
 		afterwards.ready = answer(state);
 		state.hold.swap(hold);

@@ -8,6 +8,7 @@
 #include "runtime/ipc/shared_memory.h"
 #include "runtime/ipc/socket.h"
 #include "runtime/service/decode.h"
+#include "runtime/service/pace.h"
 #include <functional>
 #include <thread>
 
@@ -64,6 +65,7 @@ private:
 		uint64_t shown = 0, newestShown = 0;
 		std::shared_ptr<const FrameContent> newest;
 		Opportunity current; ///< the newest one the compositor announced
+		Pace pace;
 		XrTime answered = 0; ///< display time of the newest FrameReady
 		std::optional<Clock::Hold> hold;
 		XrTime holdSince = 0; ///< real

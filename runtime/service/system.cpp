@@ -4,6 +4,7 @@
 #include "runtime/service/build.h"
 #include "runtime/service/decode.h"
 #include "runtime/service/device_threads.h"
+#include "runtime/service/lens_outline.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -67,9 +68,9 @@ void setViews(ipc::ViewTable &views, const Config &config, const Rig &rig)
 	views.fov = {fovOf(rig, Eye::left), fovOf(rig, Eye::right)};
 	views.viewOffset = float(config.viewOffset);
 	views.pivotInHead = rig.pivotInHead;
-	views.floorBelowLocal = 1.6f;
+	views.floorBelowLocal = float(config.eyeHeight);
 	views.localInOrigin = identityPose;
-	views.stageBounds = {2, 2};
+	views.stageBounds = {float(config.bounds[0]), float(config.bounds[1])};
 }
 
 } // namespace
@@ -118,6 +119,8 @@ std::function<void()> System::realtimeFor(const char *thread)
 void System::identify(const gpu::DeviceIdentity &gpu)
 {
 	world_.views.update([&](ipc::ViewTable &views) { setViews(views, config_, rig_); });
+	world_.system->lensOutlines.write({lensOutline(rig_.lens, Eye::left, fovOf(rig_, Eye::left)),
+									   lensOutline(rig_.lens, Eye::right, fovOf(rig_, Eye::right))});
 	world_.opened.update([&](Opened &opened) {
 		opened.stage = Stage::identified;
 		opened.welcome = welcomeOf(config_, rig_, devices_->name(), gpu);

@@ -35,8 +35,6 @@ TEST(Instance, FunctionsByVersionAndExtension)
 	FakeService service;
 	const Application old({"XR_KHR_vulkan_enable2"}, XR_MAKE_VERSION(1, 0, 0)), current;
 	EXPECT_TRUE(old.get<PFN_xrVoidFunction>("xrEndFrame"));
-	EXPECT_FALSE(old.get<PFN_xrVoidFunction>("xrLocateSpaces"));
-	EXPECT_TRUE(current.get<PFN_xrVoidFunction>("xrLocateSpaces"));
 	EXPECT_TRUE(old.get<PFN_xrVoidFunction>("xrCreateVulkanInstanceKHR"));
 	EXPECT_FALSE(old.get<PFN_xrVoidFunction>("xrGetVulkanGraphicsDeviceKHR"));
 	EXPECT_FALSE(current.get<PFN_xrVoidFunction>("xrCreateVulkanInstanceKHR"));

@@ -37,36 +37,83 @@ TEST(Paths, AtomsAreOnePerText)
 	EXPECT_THROW(table.atom("/User"), Error);
 }
 
+const Features features1_0, features1_1{true, {}};
+
+Features with(std::initializer_list<Extension> extensions)
+{
+	Features features;
+	for (const Extension extension : extensions) features.extensions.enable(extension);
+	return features;
+}
+
 TEST(InteractionProfiles, WhichAreThere)
 {
-	EXPECT_TRUE(findInteractionProfile("/interaction_profiles/khr/simple_controller", false));
-	EXPECT_TRUE(findInteractionProfile("/interaction_profiles/valve/index_controller", false));
-	EXPECT_FALSE(findInteractionProfile("/interaction_profiles/hp/mixed_reality_controller", false)) << "in the core since 1.1";
-	EXPECT_TRUE(findInteractionProfile("/interaction_profiles/hp/mixed_reality_controller", true));
-	EXPECT_FALSE(findInteractionProfile("/interaction_profiles/khr", true));
-	EXPECT_FALSE(findInteractionProfile("/user/hand/left", true));
+	EXPECT_TRUE(findInteractionProfile("/interaction_profiles/khr/simple_controller", features1_0));
+	EXPECT_TRUE(findInteractionProfile("/interaction_profiles/valve/index_controller", features1_0));
+	const char *hp = "/interaction_profiles/hp/mixed_reality_controller";
+	EXPECT_FALSE(findInteractionProfile(hp, features1_0)) << "in the core since 1.1";
+	EXPECT_TRUE(findInteractionProfile(hp, features1_1));
+	EXPECT_TRUE(findInteractionProfile(hp, with({Extension::EXT_hp_mixed_reality_controller})));
+	EXPECT_FALSE(findInteractionProfile("/interaction_profiles/ext/hand_interaction_ext", features1_1));
+	EXPECT_TRUE(findInteractionProfile("/interaction_profiles/ext/hand_interaction_ext", with({Extension::EXT_hand_interaction})));
+	EXPECT_FALSE(findInteractionProfile("/interaction_profiles/khr", features1_1));
+	EXPECT_FALSE(findInteractionProfile("/user/hand/left", features1_1));
+}
+
+/// What a path means for an action of that type; empty where the profile has no such path.
+std::string meaning(const InteractionProfile &profile, const char *path, const Features &features,
+					XrActionType type = XR_ACTION_TYPE_BOOLEAN_INPUT)
+{
+	const auto component = resolveSource(profile, path, type, features);
+	return component ? component->path : "";
 }
 
 TEST(InteractionProfiles, WhatTheyHave)
 {
-	const InteractionProfile &touch = *findInteractionProfile("/interaction_profiles/oculus/touch_controller", false);
-	EXPECT_TRUE(touch.has("/user/hand/left/input/x/click", false));
-	EXPECT_FALSE(touch.has("/user/hand/right/input/x/click", false)) << "only the left one has an X";
-	EXPECT_TRUE(touch.has("/user/hand/right/input/a/click", false));
-	EXPECT_TRUE(touch.has("/user/hand/right/input/trigger/value", false));
-	EXPECT_TRUE(touch.has("/user/hand/right/input/trigger", false)) << "the component may be left out";
-	EXPECT_FALSE(touch.has("/user/hand/right/input/trig", false));
-	for (const char *folder : {"/user/hand/right", "/user/hand/right/input", "/user/hand/right/output"})
-		EXPECT_FALSE(touch.has(folder, true)) << folder << " is no input or output";
-	EXPECT_FALSE(touch.has("/user/hand/right/input/trigger/click", false));
-	EXPECT_TRUE(touch.has("/user/hand/left/output/haptic", false));
-	EXPECT_FALSE(touch.has("/user/hand/left/input/output/haptic", false));
-	EXPECT_FALSE(touch.has("/user/gamepad/input/a/click", false));
-	EXPECT_FALSE(touch.has("/user/hand/left/input/grip_surface/pose", false));
-	EXPECT_TRUE(touch.has("/user/hand/left/input/grip_surface/pose", true));
-	const InteractionProfile &xbox = *findInteractionProfile("/interaction_profiles/microsoft/xbox_controller", true);
-	EXPECT_TRUE(xbox.has("/user/gamepad/output/haptic_right_trigger", true));
-	EXPECT_FALSE(xbox.has("/user/gamepad/input/grip_surface/pose", true));
+	const InteractionProfile &touch = *findInteractionProfile("/interaction_profiles/oculus/touch_controller", features1_0);
+	EXPECT_EQ(meaning(touch, "/user/hand/left/input/x/click", features1_0), "/input/x/click");
+	EXPECT_EQ(meaning(touch, "/user/hand/right/input/x/click", features1_0), "") << "only the left one has an X";
+	EXPECT_EQ(meaning(touch, "/user/hand/right/input/a/click", features1_0), "/input/a/click");
+	EXPECT_EQ(meaning(touch, "/user/hand/right/input/trigger", features1_0), "/input/trigger/value") << "the component may be left out";
+	EXPECT_EQ(meaning(touch, "/user/hand/right/input/trig", features1_0), "");
+	for (const char *folder : {"/user/hand/right", "/user/hand/right/input", "/user/hand/right/output", "/user/hand/rightinput/a/click"})
+		EXPECT_EQ(meaning(touch, folder, features1_1), "") << folder << " is no input or output";
+	EXPECT_EQ(meaning(touch, "/user/hand/right/input/trigger/click", features1_0), "");
+	EXPECT_EQ(meaning(touch, "/user/hand/left/output/haptic", features1_0), "/output/haptic");
+	EXPECT_EQ(meaning(touch, "/user/hand/left/input/output/haptic", features1_0), "");
+	EXPECT_EQ(meaning(touch, "/user/gamepad/input/a/click", features1_0), "");
+	const InteractionProfile &index = *findInteractionProfile("/interaction_profiles/valve/index_controller", features1_0);
+	EXPECT_EQ(meaning(index, "/user/hand/left/input/trigger", features1_0, XR_ACTION_TYPE_FLOAT_INPUT), "/input/trigger/value");
+	EXPECT_EQ(meaning(index, "/user/hand/left/input/trigger", features1_0, XR_ACTION_TYPE_BOOLEAN_INPUT), "/input/trigger/click");
+	EXPECT_EQ(meaning(index, "/user/hand/left/input/grip", features1_0, XR_ACTION_TYPE_POSE_INPUT), "/input/grip/pose");
+}
+
+TEST(InteractionProfiles, WhatVersionsAndExtensionsAddToThem)
+{
+	const InteractionProfile &touch = *findInteractionProfile("/interaction_profiles/oculus/touch_controller", features1_0);
+	const auto expectOnlyWith = [&](const char *path, const Features &features) {
+		EXPECT_EQ(meaning(touch, path, features1_0), "") << path;
+		EXPECT_NE(meaning(touch, path, features), "") << path;
+	};
+	expectOnlyWith("/user/hand/left/input/grip_surface/pose", features1_1);
+	expectOnlyWith("/user/hand/left/input/grip_surface/pose", with({Extension::KHR_maintenance1}));
+	expectOnlyWith("/user/hand/left/input/trigger/proximity", features1_1);
+	expectOnlyWith("/user/hand/left/input/trigger/proximity_fb", with({Extension::FB_touch_controller_proximity}));
+	expectOnlyWith("/user/hand/left/input/palm_ext/pose", with({Extension::EXT_palm_pose}));
+	expectOnlyWith("/user/hand/left/input/poke_ext/pose", with({Extension::EXT_hand_interaction}));
+	expectOnlyWith("/user/hand/left/input/thumbstick/dpad_up", with({Extension::EXT_dpad_binding}));
+	EXPECT_EQ(meaning(touch, "/user/hand/left/input/thumbstick/dpad_center", with({Extension::EXT_dpad_binding})), "");
+	const InteractionProfile &xbox = *findInteractionProfile("/interaction_profiles/microsoft/xbox_controller", features1_1);
+	EXPECT_EQ(meaning(xbox, "/user/gamepad/output/haptic_right_trigger", features1_1), "/output/haptic_right_trigger");
+	EXPECT_EQ(meaning(xbox, "/user/gamepad/input/grip_surface/pose", features1_1), "");
+}
+
+TEST(TopLevelUserPaths, SomeComeWithExtensions)
+{
+	EXPECT_TRUE(isTopLevelUserPath("/user/gamepad", features1_0));
+	EXPECT_FALSE(isTopLevelUserPath("/user/hand", features1_1));
+	EXPECT_FALSE(isTopLevelUserPath("/user/hand_htc/left", features1_1));
+	EXPECT_TRUE(isTopLevelUserPath("/user/hand_htc/left", with({Extension::HTC_hand_interaction})));
 }
 
 TEST(Events, LostOnesAreTold)

@@ -41,6 +41,8 @@ TEST(DefaultConfiguration, ReadsAsTheDefaults)
 	EXPECT_EQ(given.passthroughDistance, defaults.passthroughDistance);
 	EXPECT_EQ(given.viewOffset, defaults.viewOffset);
 	EXPECT_EQ(given.blendModes, defaults.blendModes);
+	EXPECT_EQ(given.eyeHeight, defaults.eyeHeight);
+	EXPECT_EQ(given.bounds, defaults.bounds);
 	EXPECT_EQ(given.target, defaults.target);
 }
 

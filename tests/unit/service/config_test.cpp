@@ -49,6 +49,9 @@ rate = 0.25
 distance = 1.5
 view_offset = 0
 blend_modes = ["alpha_blend", "opaque"]
+[space]
+eye_height = 1.2
+bounds = [3, 4.5]
 [compositor]
 target = "offscreen"
 [synthetic]
@@ -63,6 +66,8 @@ recording = "walk"
 	EXPECT_EQ(config.passthroughDistance, 1.5);
 	EXPECT_EQ(config.viewOffset, 0);
 	EXPECT_EQ(config.blendModes, (std::vector{XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, XR_ENVIRONMENT_BLEND_MODE_OPAQUE}));
+	EXPECT_EQ(config.eyeHeight, 1.2);
+	EXPECT_EQ(config.bounds, (std::array{3.0, 4.5}));
 	EXPECT_EQ(config.target, TargetKind::offscreen);
 	EXPECT_EQ(config.recording, root_ / "walk");
 }
