@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,11 +54,23 @@ public:
 	uint32_t memoryTypeIndex() const;
 	/// A new opaque fd of the memory for the application.
 	UniqueFd exportMemory() const;
+	/// Replaces an array layer's largest mip level with texels of CopyLayout::layerSize bytes, which are read once; done when it returns.
+	/// For an image that no application draws into. Throws std::runtime_error where the GPU is lost.
+	void write(uint32_t arrayLayer, std::span<const std::byte> texels);
 
 private:
 	struct Implementation;
 	std::unique_ptr<Implementation> implementation_;
 };
+
+/// A little exported memory that begins with a pattern nobody knows: whoever imports it and reads that has the service's memory indeed.
+struct MemoryProbe {
+	UniqueFd memory;
+	uint64_t size = 0;
+	uint32_t typeIndex = 0;
+	std::array<uint8_t, 32> pattern{};
+};
+MemoryProbe makeMemoryProbe(Device &device);
 
 /// Formats an application may use, the runtime's favourite first, as VkFormat; only those the device can share with every usage asked for.
 std::vector<int64_t> swapchainFormats(Device &device);

@@ -39,12 +39,28 @@ size_t bytesPerTexel(VkFormat format)
 	case VK_FORMAT_B8G8R8A8_SRGB:
 	case VK_FORMAT_R8G8B8A8_UNORM:
 	case VK_FORMAT_B8G8R8A8_UNORM:
-	case VK_FORMAT_A2B10G10R10_UNORM_PACK32: return 4;
+	case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
+	case VK_FORMAT_D32_SFLOAT:
+	case VK_FORMAT_D32_SFLOAT_S8_UINT:
+	case VK_FORMAT_D24_UNORM_S8_UINT: return 4;
+	case VK_FORMAT_D16_UNORM: return 2;
 	case VK_FORMAT_R16G16B16A16_SFLOAT:
 	case VK_FORMAT_R16G16B16A16_UNORM: return 8;
 	default: return 0;
 	}
 }
+
+CopyLayout copyLayoutOf(const ImageSpec &spec)
+{
+	CopyLayout layout;
+	layout.rowPitch = spec.width * bytesPerTexel(VkFormat(spec.format));
+	layout.layerSize = layout.rowPitch * spec.height;
+	layout.layerPitch = (layout.layerSize + 15) / 16 * 16;
+	layout.size = layout.layerPitch * spec.arrayLayers;
+	return layout;
+}
+
+VkImageAspectFlags copiedAspectOf(VkFormat format) { return isDepth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT; }
 
 VkImageCreateFlags createFlagsOf(VkFormat format)
 {

@@ -39,8 +39,19 @@ bool isDepth(VkFormat format);
 /// The same bits without sRGB encoding: the format in which the compositor samples an image. It decodes by itself, in the shader, what it
 /// then mixes: a software renderer would decode every channel of every texel.
 VkFormat storedFormat(VkFormat format);
-/// Of the colour formats that swapchains have; 0: another.
+/// Of the formats that swapchains have, in a copy of the image (of depth and stencil, the depth); 0: another.
 size_t bytesPerTexel(VkFormat format);
+
+/// How an image's largest mip level lies in memory through which it is copied: rows without padding, array layers one after another.
+struct CopyLayout {
+	size_t rowPitch = 0;
+	size_t layerSize = 0;  ///< of the rows
+	size_t layerPitch = 0; ///< from one layer's first texel to the next one's: Vulkan wants copies to begin at multiples of 16 at most
+	size_t size = 0;       ///< of all layers
+};
+CopyLayout copyLayoutOf(const ImageSpec &spec);
+/// What of such an image is copied.
+VkImageAspectFlags copiedAspectOf(VkFormat format);
 /// What images of a format need for that, whatever their application asks for.
 VkImageCreateFlags createFlagsOf(VkFormat format);
 VkImageAspectFlags aspectOf(VkFormat format);

@@ -1,5 +1,6 @@
 #include "runtime/gpu/device.h"
 #include "runtime/gpu/handles.h"
+#include <cstring>
 #include <fmt/core.h>
 #include <stdexcept>
 
@@ -74,6 +75,45 @@ void clearAndRelease(const vk::raii::CommandBuffer &commands, vk::Image image, V
 	commands.pipelineBarrier(Stage::eTransfer, Stage::eBottomOfPipe, {}, {}, {}, after);
 }
 
+/// Texels on their way into an image that does not lie in rows.
+struct Staging {
+	Staging(const Device::Handles &gpu, size_t size)
+		: buffer(gpu, size, vk::BufferUsageFlagBits::eTransferSrc),
+		  pool(gpu.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, gpu.queueFamily}),
+		  commands(std::move(vk::raii::CommandBuffers(gpu.device, {*pool, vk::CommandBufferLevel::ePrimary, 1}).front())),
+		  fence(gpu.device, vk::FenceCreateInfo{})
+	{
+	}
+	Buffer buffer;
+	vk::raii::CommandPool pool;
+	vk::raii::CommandBuffer commands;
+	vk::raii::Fence fence;
+};
+
+/// Takes the layer over, copies the staged texels into it and hands it back.
+void recordWrite(const vk::raii::CommandBuffer &commands, vk::Buffer staged, vk::Image image, const ImageSpec &spec, uint32_t layer,
+				 uint32_t queueFamily)
+{
+	using Access = vk::AccessFlagBits;
+	using Stage = vk::PipelineStageFlagBits;
+	using Layout = vk::ImageLayout;
+	const auto boundary = Layout(boundaryLayout(VkFormat(spec.format)));
+	const vk::ImageSubresourceRange range{vk::ImageAspectFlags(aspectOf(VkFormat(spec.format))), 0, VK_REMAINING_MIP_LEVELS, layer, 1};
+	const auto copied = vk::ImageAspectFlags(copiedAspectOf(VkFormat(spec.format)));
+	commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+	commands.pipelineBarrier(
+		Stage::eAllCommands, Stage::eTransfer, {}, {}, {},
+		vk::ImageMemoryBarrier{
+			{}, Access::eTransferWrite, boundary, Layout::eTransferDstOptimal, VK_QUEUE_FAMILY_EXTERNAL, queueFamily, image, range});
+	commands.copyBufferToImage(staged, image, Layout::eTransferDstOptimal,
+							   vk::BufferImageCopy{0, 0, 0, {copied, 0, layer, 1}, {}, {spec.width, spec.height, 1}});
+	commands.pipelineBarrier(
+		Stage::eTransfer, Stage::eAllCommands, {}, {}, {},
+		vk::ImageMemoryBarrier{
+			Access::eTransferWrite, {}, Layout::eTransferDstOptimal, boundary, queueFamily, VK_QUEUE_FAMILY_EXTERNAL, image, range});
+	commands.end();
+}
+
 } // namespace
 
 struct SharedImage::Implementation {
@@ -93,8 +133,22 @@ struct SharedImage::Implementation {
 	void map()
 	{
 		const auto layout = image.getSubresourceLayout({vk::ImageAspectFlagBits::eColor, 0, 0});
-		const auto *bytes = static_cast<const std::byte *>(memory.mapMemory(0, VK_WHOLE_SIZE));
-		rows = {bytes + layout.offset, layout.rowPitch, layout.arrayPitch};
+		first = static_cast<std::byte *>(memory.mapMemory(0, VK_WHOLE_SIZE)) + layout.offset;
+		rows = {first, layout.rowPitch, layout.arrayPitch};
+	}
+
+	void write(uint32_t layer, std::span<const std::byte> texels)
+	{
+		const CopyLayout layout = copyLayoutOf(spec);
+		if (rows.first) {
+			for (size_t y = 0; y < spec.height; ++y)
+				std::memcpy(first + layer * rows.layerPitch + y * rows.rowPitch, texels.data() + y * layout.rowPitch, layout.rowPitch);
+			return;
+		}
+		if (!staging) staging.emplace(gpu, layout.layerSize);
+		std::memcpy(staging->buffer.bytes.data(), texels.data(), layout.layerSize);
+		recordWrite(staging->commands, *staging->buffer.buffer, *image, spec, layer, gpu.queueFamily);
+		gpu.submitAndWait(staging->commands, staging->fence);
 	}
 
 	Device::Handles &gpu;
@@ -103,7 +157,9 @@ struct SharedImage::Implementation {
 	vk::DeviceSize size;
 	uint32_t type;
 	vk::raii::DeviceMemory memory; ///< mapped for as long as it lives, where the image lies in rows
+	std::byte *first = nullptr;    ///< of the first row, where it does
 	ImageRows rows;
+	std::optional<Staging> staging; ///< once it is written
 };
 
 uint64_t SharedImage::memorySizeOf(Device &device, const ImageSpec &spec)
@@ -122,6 +178,8 @@ ImageRows SharedImage::rows() const { return implementation_->rows; }
 const ImageSpec &SharedImage::spec() const { return implementation_->spec; }
 uint64_t SharedImage::memorySize() const { return implementation_->size; }
 uint32_t SharedImage::memoryTypeIndex() const { return implementation_->type; }
+
+void SharedImage::write(uint32_t arrayLayer, std::span<const std::byte> texels) { implementation_->write(arrayLayer, texels); }
 
 UniqueFd SharedImage::exportMemory() const
 {

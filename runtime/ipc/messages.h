@@ -18,7 +18,8 @@ constexpr XrDuration openingLimit = 60 * second;
 constexpr uint32_t maxFds = 16;         // per message
 constexpr uint32_t maxImages = 8;       // per swapchain
 constexpr uint32_t maxArrayLayers = 64; // per image, faces included
-constexpr uint32_t maxLayers = 16;      // per submission
+constexpr uint32_t maxLayers = 64;      // per submission
+constexpr uint32_t maxFormats = 16;     // of swapchains
 
 enum class MessageType : uint32_t {
 	// application or monitor -> service -> back
@@ -57,6 +58,12 @@ struct Header {
 
 enum class Role : uint32_t { application, monitor };
 
+/// How an application's images reach the service's GPU.
+enum class Sharing : uint32_t {
+	memory, ///< the service's own memory, imported into the application's device
+	copies  ///< memory of the CPU, into which the application's GPU and out of which the service's copies (gpu::CopyLayout)
+};
+
 /// What comes before `role`, and Failed, stay as they are in every protocol: another protocol is refused with a sentence.
 struct Hello {
 	static constexpr MessageType type = MessageType::hello;
@@ -90,7 +97,7 @@ struct Welcome {
 	uint32_t steppedClock = 0;
 };
 
-/// fds of the reply: the application's end of the frame channel.
+/// fds of the reply: the application's end of the frame channel; the probe, where there is one.
 struct CreateSession {
 	static constexpr MessageType type = MessageType::createSession;
 	Header header{type};
@@ -102,7 +109,14 @@ struct SessionCreated {
 	static constexpr MessageType type = MessageType::sessionCreated;
 	Header header{type};
 	uint32_t session = 0;
+	Sharing sharing = Sharing::memory;        ///< copies: the service imports nothing; memory: the application may ask for copies yet
+	std::array<int32_t, maxFormats> formats{}; ///< VkFormats of swapchains, the service's favourite first; 0 behind the last
+	/// Memory of the service's device that begins with these bytes: where a device that says it is the same reads others, its images are
+	/// not to be shared. Size 0: there is none.
+	uint64_t probeSize = 0;
+	uint32_t probeTypeIndex = 0; ///< on the service's device
 	uint32_t reserved = 0;
+	std::array<uint8_t, 32> probePattern{};
 };
 struct DestroySession {
 	static constexpr MessageType type = MessageType::destroySession;
@@ -117,12 +131,15 @@ struct SessionRunning {
 	uint32_t running = 0;
 };
 
-/// fds of the reply: one opaque memory fd per image. Every image is clear and in its boundary layout, owned by VK_QUEUE_FAMILY_EXTERNAL.
+/// fds of the reply: one per image. Opaque memory, in which every image is clear and in its boundary layout, owned by
+/// VK_QUEUE_FAMILY_EXTERNAL; or, for copies, a memfd in which gpu::copyLayoutOf(spec) says where its texels are.
 struct CreateSwapchain {
 	static constexpr MessageType type = MessageType::createSwapchain;
 	Header header{type};
 	uint32_t session = 0;
 	uint32_t imageCount = 3;
+	Sharing sharing = Sharing::memory;
+	uint32_t reserved = 0;
 	gpu::ImageSpec spec;
 };
 struct SwapchainCreated {
@@ -130,8 +147,8 @@ struct SwapchainCreated {
 	Header header{type};
 	uint32_t swapchain = 0;
 	uint32_t imageCount = 0;
-	uint64_t memorySize = 0;      ///< VkMemoryRequirements::size of each image
-	uint32_t memoryTypeIndex = 0; ///< on the service's device
+	uint64_t memorySize = 0;      ///< of each image: VkMemoryRequirements::size, or gpu::CopyLayout::size
+	uint32_t memoryTypeIndex = 0; ///< on the service's device; of no meaning for copies
 	uint32_t reserved = 0;
 };
 struct DestroySwapchain {
@@ -174,7 +191,7 @@ struct SubImage {
 	uint32_t arrayIndex = 0;
 	int32_t x = 0, y = 0; ///< rectangle in texels, origin at the top left
 	int32_t width = 0, height = 0;
-	uint32_t reserved = 0;
+	uint32_t release = 0; ///< how often the image had been released: its content is the same while this is; 0: who knows
 };
 enum class LayerType : uint32_t { projection, quad };
 enum class LayerFrame : uint32_t { origin /**< fixed in the world */, head /**< moves with the head (VIEW space) */ };

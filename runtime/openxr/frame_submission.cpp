@@ -161,16 +161,17 @@ ipc::SubImage FrameSubmission::subImage(const XrSwapchainSubImage &given)
 		throw Error(XR_ERROR_VALIDATION_FAILURE, "imageArrayIndex {} is not below {}", given.imageArrayIndex, spec.arrayLayers);
 	if (swapchain.isCube() || gpu::isDepth(VkFormat(spec.format)))
 		throw Error(XR_ERROR_LAYER_INVALID, "a cube or depth image cannot be shown as a flat one");
-	const auto image = swapchain.newestImage();
-	if (!image) throw Error(XR_ERROR_LAYER_INVALID, "a layer shows a swapchain of which no image was released");
-	uses_.push_back({&swapchain, *image});
+	const auto newest = swapchain.newestImage();
+	if (!newest) throw Error(XR_ERROR_LAYER_INVALID, "a layer shows a swapchain of which no image was released");
+	uses_.push_back({&swapchain, newest->image});
 	return {.swapchain = swapchain.id(),
-			.image = *image,
+			.image = newest->image,
 			.arrayIndex = given.imageArrayIndex,
 			.x = offset.x,
 			.y = offset.y,
 			.width = extent.width,
-			.height = extent.height};
+			.height = extent.height,
+			.release = newest->release};
 }
 
 } // namespace arift::openxr

@@ -2,6 +2,7 @@
 #pragma once
 #include "runtime/base/unique_fd.h"
 #include "runtime/gpu/image_spec.h"
+#include "runtime/ipc/messages.h"
 #include "runtime/openxr/api.h"
 #include <array>
 #include <memory>
@@ -40,11 +41,20 @@ public:
 	virtual size_t elementSize() const = 0;
 };
 
-/// Memory the service allocated for a swapchain's images.
+/// Memory the service allocated for a swapchain's images, as SwapchainCreated tells.
 struct SharedMemory {
-	std::span<UniqueFd> fds; ///< one opaque fd per image
+	ipc::Sharing sharing = ipc::Sharing::memory;
+	std::span<UniqueFd> fds; ///< one per image: opaque, or a memfd to copy into
 	uint64_t size = 0;       ///< bytes of each
 	uint32_t typeIndex = 0;
+};
+
+/// Memory that the service says begins with a pattern.
+struct MemoryProbe {
+	UniqueFd &memory;
+	uint64_t size = 0;
+	uint32_t typeIndex = 0;
+	std::span<const uint8_t> pattern;
 };
 
 class Graphics
@@ -53,10 +63,13 @@ public:
 	virtual ~Graphics() = default;
 	virtual std::array<uint8_t, 16> deviceUuid() const = 0;
 	virtual std::array<uint8_t, 16> driverUuid() const = 0;
-	/// Swapchain formats, the runtime's favourite first.
+	/// Formats that the application's device can draw in, of any order: the service says which of them swapchains may have.
 	virtual const std::vector<int64_t> &formats() const = 0;
-	/// What the service is to make for a swapchain. Throws XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED or XR_ERROR_FEATURE_UNSUPPORTED.
-	virtual gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info) const = 0;
+	/// Whether the application's device sees the probe's pattern where the service wrote it. An API that cannot look has the UUIDs alone.
+	virtual bool sees(const MemoryProbe &) const { return true; }
+	/// What the service is to make for a swapchain, one of formats(). Throws XR_ERROR_FEATURE_UNSUPPORTED.
+	virtual gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info, ipc::Sharing sharing) const = 0;
+	/// The images in the application's device; where they are copied, images of its own that are copied into `memory` when handed over.
 	virtual std::unique_ptr<SwapchainImages> import(const gpu::ImageSpec &spec, const SharedMemory &memory) = 0;
 };
 

@@ -25,6 +25,7 @@ Session::Granted Session::ask(Instance &instance, const Graphics *graphics)
 Session::Session(Instance &owner, std::unique_ptr<Graphics> &&graphics, Granted granted)
 	: instance(owner),
 	  graphics_(std::move(graphics)),
+	  sharing_(graphics_ ? agree(*graphics_, granted.answer.reply, granted.answer.fds[1]) : ImageSharing{}),
 	  id_(granted.answer.reply.session),
 	  life_(std::make_shared<SessionLife>(instance, id_, !graphics_, granted.newsBefore)),
 	  frames_(std::make_unique<ipc::Socket>(std::move(granted.answer.fds[0])))

@@ -1,7 +1,7 @@
 // XrSession: its life cycle, its frames and what it shares with the service. OpenXR 1.1, chapters "Session" and "Rendering".
 #pragma once
 #include "runtime/openxr/debug_labels.h"
-#include "runtime/openxr/graphics.h"
+#include "runtime/openxr/image_sharing.h"
 #include "runtime/openxr/input.h"
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/session_life.h"
@@ -33,6 +33,8 @@ public:
 	uint32_t id() const { return id_; }
 	/// Null for a headless session.
 	Graphics *graphics() const { return graphics_.get(); }
+	/// Of no meaning for a headless session.
+	const ImageSharing &sharing() const { return sharing_; }
 	/// Posts the first states: only when the session has its handle.
 	void announce();
 
@@ -80,6 +82,7 @@ private:
 	[[noreturn]] void loseFrames(const char *why);
 
 	std::unique_ptr<Graphics> graphics_;
+	const ImageSharing sharing_;
 	std::atomic<uint64_t> submitted_{0};           ///< frames handed to the submitter
 	std::atomic<XrTime> waitedAt_{0}, begunAt_{0}; ///< real: xrWaitFrame's return for the newest frame, and for the one begun
 	mutable Guarded<FrameCost> frameCost_;

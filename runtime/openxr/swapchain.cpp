@@ -44,7 +44,10 @@ gpu::ImageSpec specFor(const Session &session, const XrSwapchainCreateInfo &info
 	requireInputAttachmentUsage(session.instance, info.usageFlags);
 	requireFormatList(session.instance, info);
 	if (!session.graphics()) throw Error(XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED, "a headless session has no swapchains");
-	return session.graphics()->specOf(info);
+	const ImageSharing &sharing = session.sharing();
+	if (std::ranges::find(sharing.formats, info.format) == sharing.formats.end())
+		throw Error(XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED, "format {} is not one of xrEnumerateSwapchainFormats", info.format);
+	return session.graphics()->specOf(info, sharing.how);
 }
 
 } // namespace
@@ -55,8 +58,9 @@ AllocatedImages::AllocatedImages(Session &session, ipc::Answer<ipc::SwapchainCre
 }
 
 AllocatedImages::AllocatedImages(Session &session, const gpu::ImageSpec &spec, bool isStatic)
-	: AllocatedImages(session, session.instance.service.ask<ipc::SwapchainCreated>(
-								   ipc::CreateSwapchain{.session = session.id(), .imageCount = isStatic ? 1 : usualImages, .spec = spec}))
+	: AllocatedImages(
+		  session, session.instance.service.ask<ipc::SwapchainCreated>(ipc::CreateSwapchain{
+					   .session = session.id(), .imageCount = isStatic ? 1 : usualImages, .sharing = session.sharing().how, .spec = spec}))
 {
 	const uint32_t wanted = isStatic ? 1 : usualImages;
 	if (count() < wanted || count() > ipc::maxImages || answer_.fdCount != count())
@@ -161,8 +165,14 @@ void Swapchain::release()
 	turns->work[image].swap(work);
 	turns->queue.release();
 }
+	turns->releases[image] = std::max(turns->releases[image] + 1, 1u); // 0 says nothing
 
-std::optional<uint32_t> Swapchain::newestImage() { return turns_.lock()->queue.newest(); }
+std::optional<Swapchain::Released> Swapchain::newestImage()
+{
+	const auto turns = turns_.lock();
+	const auto newest = turns->queue.newest();
+	return newest ? std::optional(Released{*newest, turns->releases[*newest]}) : std::nullopt;
+}
 
 std::shared_ptr<Completion> Swapchain::workOn(uint32_t image) { return turns_.lock()->work[image]; }
 
@@ -171,7 +181,7 @@ void Swapchain::noteSubmitted(uint32_t image, uint64_t frame) { turns_.lock()->q
 XrResult enumerateSwapchainFormats(Session &session, OutputArray<int64_t> formats)
 {
 	if (!session.graphics()) return formats.assign({});
-	return formats.assign(session.graphics()->formats());
+	return formats.assign(session.sharing().formats);
 }
 
 void createSwapchain(Session &session, const XrSwapchainCreateInfo &info, XrSwapchain &swapchain)

@@ -17,7 +17,10 @@ public:
 
 	uint32_t swapchain() const { return answer_.reply.swapchain; }
 	uint32_t count() const { return answer_.reply.imageCount; }
-	SharedMemory memory() { return {std::span(answer_.fds).first(count()), answer_.reply.memorySize, answer_.reply.memoryTypeIndex}; }
+	SharedMemory memory()
+	{
+		return {session_.sharing().how, std::span(answer_.fds).first(count()), answer_.reply.memorySize, answer_.reply.memoryTypeIndex};
+	}
 
 private:
 	AllocatedImages(Session &session, ipc::Answer<ipc::SwapchainCreated> answer);
@@ -43,8 +46,11 @@ public:
 	bool wait(XrDuration timeout);
 	void release();
 
-	/// The image released last, which is the one a layer shows.
-	std::optional<uint32_t> newestImage();
+	/// The image released last, which is the one a layer shows, and which release of it that was, from 1.
+	struct Released {
+		uint32_t image = 0, release = 0;
+	};
+	std::optional<Released> newestImage();
 	/// The application's work on a released image.
 	std::shared_ptr<Completion> workOn(uint32_t image);
 	void noteSubmitted(uint32_t image, uint64_t frame);
@@ -55,6 +61,7 @@ private:
 	struct Turns {
 		ImageQueue queue;
 		std::vector<std::shared_ptr<Completion>> work; ///< of each image: what its last release waits for
+		std::vector<uint32_t> releases;                ///< of each image
 		std::optional<XrTime> waitingSince;            ///< when the image that is next was first found to be held by the compositor
 		uint64_t relinquished = 0;                     ///< the compositor has been asked to give up submissions up to this one
 	};

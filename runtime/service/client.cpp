@@ -93,7 +93,10 @@ void Client::answer(const ipc::Hello &message)
 {
 	greeted_ = true;
 	const bool isApplication = message.role == ipc::Role::application;
-	about_->update([&](About &about) { about = {peerPid_, ipc::textOf(message.applicationName), isApplication, nullptr}; });
+	about_->update([&](About &about) {
+		about = {
+			.pid = peerPid_, .name = ipc::textOf(message.applicationName), .application = isApplication, .session = {}, .swapchains = {}};
+	});
 	if (message.protocol != ipc::protocol) {
 		refuse(message.header, XR_ERROR_RUNTIME_UNAVAILABLE,
 			   fmt::format("this library ({}) speaks protocol {}, the running service ({}) speaks {}: restart the service (arift stop)",
@@ -113,26 +116,50 @@ void Client::answer(const ipc::CreateSession &message)
 	if (session_) throw Refused(XR_ERROR_LIMIT_REACHED, "an instance may have one session at a time");
 	const Opened opened = world_.await(Stage::ready, ipc::openingLimit);
 	if (!opened.headsetProblem.empty()) throw Refused(XR_ERROR_INITIALIZATION_FAILED, opened.headsetProblem);
-	if (!message.headless &&
-		(message.deviceUuid != opened.device->identity().deviceUuid || message.driverUuid != opened.device->identity().driverUuid))
-		throw Refused(XR_ERROR_GRAPHICS_DEVICE_INVALID,
-					  fmt::format("the application draws on another GPU than the service, which uses {}", opened.device->identity().name));
 	device_ = opened.device;
 	compositor_ = opened.compositor;
-	swapchains_ = std::make_unique<Swapchains>(compositor_);
+	sharing_ = sharingFor(message);
+	swapchains_ = std::make_shared<Swapchains>(compositor_);
 	auto [ours, theirs] = ipc::Socket::pair();
 	const uint32_t number = nextSession++;
-	session_ = std::make_shared<Session>(
-		number, world_.clock, std::move(ours), [this](uint32_t swapchain) { return swapchains_->find(swapchain); }, page_,
-		[this](const std::string &problem) {
-			log::warning("client {} is disconnected: {}", peerPid_, problem);
-			socket_.hangUp();
-		});
-	about_->update([&](About &about) { about.session = session_; });
-	const int fd = theirs.fd();
+	session_ = std::make_shared<Session>(number, world_.clock, std::move(ours),
+										 Session::Images{[this](uint32_t swapchain) { return swapchains_->find(swapchain); },
+														 [this](const ipc::Submission &submission) { swapchains_->fetch(submission); }},
+										 page_, [this](const std::string &problem) {
+											 log::warning("client {} is disconnected: {}", peerPid_, problem);
+											 socket_.hangUp();
+										 });
+	about_->update([&](About &about) {
+		about.session = session_;
+		about.swapchains = swapchains_;
+	});
 	ipc::SessionCreated created;
 	created.session = number;
-	reply(message.header, created, {&fd, 1});
+	created.sharing = sharing_;
+	const std::vector<int64_t> formats = gpu::swapchainFormats(*device_);
+	for (size_t i = 0; i < std::min(formats.size(), created.formats.size()); ++i) created.formats[i] = int32_t(formats[i]);
+	std::vector<int> fds{theirs.fd()};
+	gpu::MemoryProbe probe;
+	// Two software devices may say the same of themselves and be of two builds.
+	if (sharing_ == ipc::Sharing::memory && !message.headless && device_->identity().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU) {
+		probe = gpu::makeMemoryProbe(*device_);
+		created.probeSize = probe.size;
+		created.probeTypeIndex = probe.typeIndex;
+		created.probePattern = probe.pattern;
+		fds.push_back(probe.memory.get());
+	}
+	reply(message.header, created, fds);
+}
+
+ipc::Sharing Client::sharingFor(const ipc::CreateSession &message) const
+{
+	const gpu::DeviceIdentity &ours = device_->identity();
+	const bool isOurs = message.deviceUuid == ours.deviceUuid && message.driverUuid == ours.driverUuid;
+	if (message.headless || (isOurs && world_.config.images == ImageSharing::automatic)) return ipc::Sharing::memory;
+	log::warning("client {}'s images are copied through the CPU's memory: {}", peerPid_,
+				 isOurs ? "the configuration wants it ([swapchains] images)"
+						: fmt::format("it draws on another GPU or driver than the service, which uses {}", ours.name));
+	return ipc::Sharing::copies;
 }
 
 Session &Client::sessionNumbered(uint32_t number)
@@ -147,7 +174,10 @@ void Client::stopSession()
 	session_->close();
 	compositor_->removeSource(*session_);
 	world_.applications.end(**page_, session_->number(), world_.clock.now());
-	about_->update([](About &about) { about.session.reset(); });
+	about_->update([](About &about) {
+		about.session.reset();
+		about.swapchains.reset();
+	});
 	session_.reset(); // the compositor may hold the closed session for the rest of its frame
 }
 
@@ -177,7 +207,8 @@ void Client::answer(const ipc::CreateSwapchain &message)
 {
 	sessionNumbered(message.session);
 	if (compositor_->ended()) throw Refused(XR_ERROR_SESSION_LOST, "the GPU that the session drew on was lost");
-	const Swapchains::Made made = swapchains_->make(*device_, message.spec, message.imageCount);
+	if (message.sharing < sharing_) throw Refused(XR_ERROR_FEATURE_UNSUPPORTED, "this session's images are copied, not shared");
+	const Swapchains::Made made = swapchains_->make(*device_, message.spec, message.imageCount, message.sharing);
 	std::vector<int> fds;
 	for (const UniqueFd &memory : made.memory) fds.push_back(memory.get());
 	ipc::SwapchainCreated created;

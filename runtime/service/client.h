@@ -28,6 +28,7 @@ public:
 		std::string name;
 		bool application = false;
 		std::shared_ptr<Session> session;
+		std::shared_ptr<Swapchains> swapchains; ///< with the session
 	};
 	std::shared_ptr<Guarded<About>> about() const { return about_; }
 
@@ -54,6 +55,7 @@ private:
 	void refuse(const ipc::Header &request, XrResult result, const std::string &text);
 	void stopSession();
 	Session &sessionNumbered(uint32_t number);
+	ipc::Sharing sharingFor(const ipc::CreateSession &message) const;
 
 	World &world_;
 	ipc::Socket socket_;
@@ -63,7 +65,8 @@ private:
 	const std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page_;
 	std::shared_ptr<gpu::Device> device_;    ///< while there is a session
 	std::shared_ptr<Compositor> compositor_; ///< while there is a session
-	std::unique_ptr<Swapchains> swapchains_;
+	ipc::Sharing sharing_ = ipc::Sharing::memory; ///< what the session may ask for
+	std::shared_ptr<Swapchains> swapchains_;
 	std::shared_ptr<Session> session_;
 	const std::shared_ptr<Guarded<About>> about_ = std::make_shared<Guarded<About>>();
 	std::jthread thread_;

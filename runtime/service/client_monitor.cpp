@@ -102,3 +102,12 @@ void describeClient(nlohmann::json &list, const Client::About &about)
 }
 
 } // namespace arift
+	entry["swapchains"] = nlohmann::json::array();
+	if (about.swapchains)
+		for (const Swapchains::About &swapchain : about.swapchains->abouts())
+			entry["swapchains"].push_back({{"width", swapchain.spec.width},
+										   {"height", swapchain.spec.height},
+										   {"arrayLayers", swapchain.spec.arrayLayers},
+										   {"format", swapchain.spec.format},
+										   {"images", swapchain.imageCount},
+										   {"copied", swapchain.sharing == ipc::Sharing::copies}});

@@ -83,6 +83,10 @@ Config decode(std::shared_ptr<const TomlDocument> document)
 	config.target = TargetKind(compositor.choice("target", {"auto", "offscreen", "window"}, size_t(config.target)));
 	compositor.finish();
 
+	TomlTable swapchains = root.table("swapchains");
+	config.images = ImageSharing(swapchains.choice("images", {"auto", "copy"}, size_t(config.images)));
+	swapchains.finish();
+
 	for (const std::string &name : driverNames()) root.table(name.c_str());
 	checkDriverSettings(document);
 	if (TomlTable replay = root.table("replay"); replay.has("recording")) config.recording = replay.path("recording");

@@ -14,6 +14,7 @@ class TomlDocument;
 
 enum class ClockMode { real, scaled, stepped };
 enum class TargetKind { automatic, offscreen, window };
+enum class ImageSharing { automatic, copies };
 
 struct Config {
 	std::shared_ptr<const TomlDocument> document; ///< all of it, drivers' tables too; null: everything at its default
@@ -30,7 +31,8 @@ struct Config {
 												   XR_ENVIRONMENT_BLEND_MODE_ADDITIVE};
 	double eyeHeight = 1.6;             ///< [space] eye_height, metres
 	std::array<double, 2> bounds{2, 2}; ///< [space] bounds, metres
-	TargetKind target = TargetKind::automatic; ///< [compositor] target
+	TargetKind target = TargetKind::automatic;     ///< [compositor] target
+	ImageSharing images = ImageSharing::automatic; ///< [swapchains] images
 };
 
 /// Where the configuration is looked for: `given`, else $ARIFT_CONFIG, else config.toml in the configuration directory if it is there.

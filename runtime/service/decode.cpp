@@ -48,6 +48,7 @@ void check(const ipc::CreateSwapchain &message)
 			"swapchain: number of mip levels out of range");
 	require(spec.samples >= 1 && spec.samples <= 16 && (spec.samples & (spec.samples - 1)) == 0, "swapchain: sample count out of range");
 	require(spec.inRows <= 1, "swapchain: neither in rows nor otherwise");
+	require(message.sharing <= ipc::Sharing::copies, "swapchain: neither shared nor copied");
 }
 void check(const ipc::DestroySwapchain &) {}
 void check(const ipc::GetStatus &message) { require(message.resetFigures <= 1, "status: reset is neither yes nor no"); }

@@ -4,12 +4,12 @@
 namespace arift
 {
 
-Session::Session(uint32_t number, Clock &clock, ipc::Socket channel, FindSwapchain find,
-				 std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page, std::function<void(const std::string &)> onMalformed)
+Session::Session(uint32_t number, Clock &clock, ipc::Socket channel, Images images, std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page,
+				 std::function<void(const std::string &)> onMalformed)
 	: number_(number),
 	  clock_(clock),
 	  channel_(std::move(channel)),
-	  find_(std::move(find)),
+	  images_(std::move(images)),
 	  page_(std::move(page)),
 	  onMalformed_(std::move(onMalformed)),
 	  thread_([this](const std::stop_token &stop) { serve(stop); })
@@ -138,6 +138,7 @@ void Session::take(const ipc::WaitFrame &message)
 void Session::take(const ipc::Submission &message)
 {
 	Afterwards afterwards;
+	images_.fetch(message);
 	std::shared_ptr<const FrameContent> content = contentOf(message, clock_.now()), before;
 	bool late = false;
 	state_.update([&](State &state) {
@@ -181,11 +182,14 @@ void Session::serve(const std::stop_token &stop)
 			if (transfer == ipc::Transfer::hungUp) break;
 			if (transfer == ipc::Transfer::malformed) throw Malformed("message longer than {} bytes", ipc::maxMessageSize);
 			if (transfer == ipc::Transfer::done)
-				std::visit([this](const auto &message) { take(message); }, decodeFrameRequest(received, find_));
+				std::visit([this](const auto &message) { take(message); }, decodeFrameRequest(received, images_.find));
 			dropOldHold();
 		}
-	} catch (const std::exception &problem) { // Malformed above all
+	} catch (const Malformed &problem) {
 		onMalformed_(problem.what());
+	} catch (const std::exception &problem) {
+		log::error("session {} is lost: {}", number_, problem.what());
+		channel_.hangUp();
 	}
 	setRunning(false);
 }

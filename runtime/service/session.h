@@ -25,7 +25,13 @@ class Session final : public FrameSource
 public:
 	static constexpr XrDuration longestHold = 5 * second;
 
-	Session(uint32_t number, Clock &clock, ipc::Socket channel, FindSwapchain find, std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page,
+	/// What the session asks of its client's images, on its own thread.
+	struct Images {
+		FindSwapchain find;
+		/// Brings in what a submission shows, before it is shown. May throw: the session is lost then.
+		std::function<void(const ipc::Submission &)> fetch = [](const ipc::Submission &) {};
+	};
+	Session(uint32_t number, Clock &clock, ipc::Socket channel, Images images, std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page,
 			std::function<void(const std::string &)> onMalformed);
 	~Session() override;
 
@@ -89,7 +95,7 @@ private:
 	const uint32_t number_;
 	Clock &clock_;
 	ipc::Socket channel_;
-	const FindSwapchain find_;
+	const Images images_;
 	const std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page_;
 	const std::function<void(const std::string &)> onMalformed_;
 	Guarded<State> state_;

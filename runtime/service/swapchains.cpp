@@ -1,5 +1,6 @@
 #include "runtime/service/swapchains.h"
 #include "runtime/compositor/compositor.h"
+#include "runtime/service/copied_images.h"
 #include <algorithm>
 #include <atomic>
 
@@ -16,7 +17,7 @@ constexpr VkImageUsageFlags knownUsage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IM
 										 VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT;
 constexpr VkImageCreateFlags knownFlags = VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT | VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
 
-void checkSpec(gpu::Device &device, const gpu::ImageSpec &spec)
+void checkSpec(gpu::Device &device, const gpu::ImageSpec &spec, ipc::Sharing sharing)
 {
 	const std::vector<int64_t> formats = gpu::swapchainFormats(device);
 	if (std::ranges::find(formats, int64_t(spec.format)) == formats.end())
@@ -25,6 +26,8 @@ void checkSpec(gpu::Device &device, const gpu::ImageSpec &spec)
 	if (spec.usage == 0 || (spec.usage & ~knownUsage) || (spec.createFlags & ~knownFlags))
 		throw Refused(XR_ERROR_FEATURE_UNSUPPORTED,
 					  fmt::format("image usage {:#x} with flags {:#x} cannot be shared", spec.usage, spec.createFlags));
+	if (sharing == ipc::Sharing::copies && (spec.samples != 1 || spec.inRows))
+		throw Refused(XR_ERROR_FEATURE_UNSUPPORTED, fmt::format("an image of {} samples cannot be copied", spec.samples));
 	if (spec.inRows > (gpu::canLieInRows(device.identity().deviceType, spec) ? 1u : 0u))
 		throw Refused(XR_ERROR_FEATURE_UNSUPPORTED, "the service's images do not lie in rows");
 	if ((spec.createFlags & VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT) && (spec.width != spec.height || spec.arrayLayers % 6 != 0))
@@ -35,27 +38,74 @@ void checkSpec(gpu::Device &device, const gpu::ImageSpec &spec)
 
 Swapchains::~Swapchains() { destroyAll(); }
 
-Swapchains::Made Swapchains::make(gpu::Device &device, const gpu::ImageSpec &spec, uint32_t imageCount)
+Swapchains::Made Swapchains::make(gpu::Device &device, const gpu::ImageSpec &spec, uint32_t imageCount, ipc::Sharing sharing)
 {
-	checkSpec(device, spec);
+	checkSpec(device, spec, sharing);
 	if (swapchains_.lock()->size() >= Quota::swapchains)
 		throw Refused(XR_ERROR_LIMIT_REACHED, fmt::format("a client may have {} swapchains", uint32_t(Quota::swapchains)));
-	// Before any of it is taken.
-	if (bytes() + gpu::SharedImage::memorySizeOf(device, spec) * imageCount > Quota::imageBytes)
+	return sharing == ipc::Sharing::copies ? copy(device, spec, imageCount) : share(device, spec, imageCount);
+}
+
+/// Before any of it is taken.
+void Swapchains::requireQuota(uint64_t wanted)
+{
+	if (bytes() + wanted > Quota::imageBytes)
 		throw Refused(XR_ERROR_OUT_OF_MEMORY, fmt::format("a client's images may take {} MiB", Quota::imageBytes >> 20));
+}
+
+void Swapchains::tellCompositor(uint32_t swapchain, uint32_t image, const std::shared_ptr<gpu::SharedImage> &shared)
+{
+	compositor_->addImage(imageKey(swapchain, image), shared->image(), shared->spec(), shared, shared->rows());
+}
+
+Swapchains::Made Swapchains::share(gpu::Device &device, const gpu::ImageSpec &spec, uint32_t imageCount)
+{
+	const uint64_t bytes = gpu::SharedImage::memorySizeOf(device, spec) * imageCount;
+	requireQuota(bytes);
 	std::vector<std::shared_ptr<gpu::SharedImage>> images;
-	Made made;
+	Made made{.swapchain = nextSwapchain++};
 	for (uint32_t i = 0; i < imageCount; ++i)
 		made.memory.push_back(images.emplace_back(std::make_shared<gpu::SharedImage>(device, spec))->exportMemory());
-	made.swapchain = nextSwapchain++;
 	made.memorySize = images.front()->memorySize();
 	made.memoryTypeIndex = images.front()->memoryTypeIndex();
-	for (uint32_t i = 0; i < imageCount; ++i)
-		compositor_->addImage(imageKey(made.swapchain, i), images[i]->image(), spec, images[i], images[i]->rows());
-	swapchains_.update([&](auto &all) {
-		all[made.swapchain] = {{spec.width, spec.height, spec.arrayLayers, imageCount}, made.memorySize * imageCount};
-	});
+	for (uint32_t i = 0; i < imageCount; ++i) tellCompositor(made.swapchain, i, images[i]);
+	swapchains_.update([&](auto &all) { all[made.swapchain] = {{spec, imageCount, ipc::Sharing::memory}, bytes, nullptr}; });
 	return made;
+}
+
+Swapchains::Made Swapchains::copy(gpu::Device &device, const gpu::ImageSpec &spec, uint32_t imageCount)
+{
+	const uint64_t bytes = CopiedImages::sizeOf(device, spec, imageCount);
+	requireQuota(bytes);
+	const auto copies = std::make_shared<CopiedImages>(device, spec, imageCount);
+	Made made{.swapchain = nextSwapchain++, .memorySize = gpu::copyLayoutOf(spec).size, .memory = copies->takeMemory()};
+	for (uint32_t i = 0; i < imageCount; ++i) tellCompositor(made.swapchain, i, copies->image(i));
+	swapchains_.update([&](auto &all) { all[made.swapchain] = {{spec, imageCount, ipc::Sharing::copies}, bytes, copies}; });
+	return made;
+}
+
+void Swapchains::fetch(const ipc::SubImage &image)
+{
+	std::shared_ptr<CopiedImages> copies;
+	if (const auto all = swapchains_.lock(); all->contains(image.swapchain)) copies = all->at(image.swapchain).copies;
+	if (copies) copies->fetch(image.image, image.arrayIndex, image.release);
+}
+
+void Swapchains::fetch(const ipc::Submission &submission)
+{
+	for (uint32_t i = 0; i < submission.layerCount; ++i) {
+		const ipc::Layer &layer = submission.layers[i];
+		fetch(layer.views[0].image);
+		if (layer.type == ipc::LayerType::projection) fetch(layer.views[1].image);
+	}
+}
+
+std::vector<Swapchains::About> Swapchains::abouts()
+{
+	std::vector<About> abouts;
+	const auto all = swapchains_.lock();
+	for (const auto &[number, swapchain] : *all) abouts.push_back(swapchain.about);
+	return abouts;
 }
 
 bool Swapchains::destroy(uint32_t swapchain)
@@ -64,11 +114,11 @@ bool Swapchains::destroy(uint32_t swapchain)
 	if (const auto alive = swapchains_.lock(); alive->contains(swapchain)) gone = alive->at(swapchain);
 	if (!gone) return false;
 	destroyed_.update([&](auto &destroyed) {
-		destroyed[swapchain] = gone->shape;
+		destroyed[swapchain] = gone->shape();
 		if (destroyed.size() > Quota::swapchains) destroyed.erase(destroyed.begin());
 	});
 	swapchains_.lock()->erase(swapchain);
-	for (uint32_t i = 0; i < gone->shape.imageCount; ++i) compositor_->removeImage(imageKey(swapchain, i));
+	for (uint32_t i = 0; i < gone->about.imageCount; ++i) compositor_->removeImage(imageKey(swapchain, i));
 	return true;
 }
 
@@ -86,7 +136,7 @@ void Swapchains::destroyAll()
 
 std::optional<SwapchainShape> Swapchains::find(uint32_t swapchain)
 {
-	if (const auto all = swapchains_.lock(); all->contains(swapchain)) return all->at(swapchain).shape;
+	if (const auto all = swapchains_.lock(); all->contains(swapchain)) return all->at(swapchain).shape();
 	if (const auto destroyed = destroyed_.lock(); destroyed->contains(swapchain)) return destroyed->at(swapchain);
 	return std::nullopt;
 }

@@ -121,7 +121,7 @@ TEST_F(FakeSession, AnAcquireOrReleaseThatFailsHasChangedNothing)
 	EXPECT_EQ(images.newestImage(), std::nullopt);
 	device.submitFails = false;
 	images.release();
-	EXPECT_EQ(images.newestImage(), 0u);
+	EXPECT_EQ(images.newestImage().value().image, 0u);
 }
 
 /// An application may poll with a timeout shorter than a refresh, or with none.

@@ -21,7 +21,7 @@ public:
 	std::array<uint8_t, 16> deviceUuid() const override { return {}; }
 	std::array<uint8_t, 16> driverUuid() const override { return {}; }
 	const std::vector<int64_t> &formats() const override { return formats_; }
-	gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info) const override
+	gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info, ipc::Sharing) const override
 	{
 		return {.format = int32_t(info.format), .width = info.width, .height = info.height};
 	}

@@ -136,7 +136,10 @@ void FakeService::answer(ipc::Socket &socket, const ipc::Received &received)
 		}
 		uint32_t number = 0;
 		record_.update([&](Record &record) { number = ++record.sessionsCreated; });
-		return reply(socket, received, ipc::SessionCreated{.session = number}, std::array{theirs.fd()});
+		ipc::SessionCreated created{.session = number};
+		const UniqueFd further = (*grant_.lock())(created);
+		const std::array fds{theirs.fd(), further.get()};
+		return reply(socket, received, created, std::span(fds).first(further ? 2 : 1));
 	}
 	if (const auto create = received.as<ipc::CreateSwapchain>()) {
 		ipc::SwapchainCreated created;

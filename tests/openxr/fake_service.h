@@ -43,6 +43,10 @@ public:
 	void stopHeart() { heart_ = {}; }
 	/// Sessions made from now on have a frame channel that is full and is not read.
 	void stopReadingFrames() { readingFrames_ = false; }
+	/// What sessions made from now on are told of their images; one descriptor behind the frame channel, or none. Else they may share
+	/// images of VK_FORMAT_R8G8B8A8_SRGB.
+	using Grant = std::function<UniqueFd(ipc::SessionCreated &)>;
+	void setGrant(Grant grant) { *grant_.lock() = std::move(grant); }
 	/// What CreateSession is answered with from now on.
 	void refuseSessions(XrResult result) { refusal_ = result; }
 	/// Ends every connection as a process that is killed does.
@@ -86,6 +90,10 @@ private:
 	std::atomic<int> deaf_{0};
 	std::atomic<XrDuration> pace_{0};
 	std::atomic<XrResult> refusal_{XR_SUCCESS};
+	Guarded<Grant> grant_{[](ipc::SessionCreated &created) {
+		created.formats[0] = 43;
+		return UniqueFd();
+	}};
 	std::optional<ipc::Socket> unread_; ///< the service's end of a frame channel
 	Guarded<Record> record_;
 	Guarded<std::vector<Connection>> connections_;

@@ -106,7 +106,7 @@ void VulkanApplication::makeDevice(XrSystemId system)
 	vulkan<PFN_vkCreateCommandPool>("vkCreateCommandPool")(device, &pool, nullptr, &pool_);
 }
 
-void VulkanApplication::clear(VkImage image, float red)
+void VulkanApplication::clear(VkImage image, float value, VkFormat format)
 {
 	const VkCommandBufferAllocateInfo allocate{
 		.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, .commandPool = pool_, .commandBufferCount = 1};
@@ -114,24 +114,33 @@ void VulkanApplication::clear(VkImage image, float red)
 	vulkan<PFN_vkAllocateCommandBuffers>("vkAllocateCommandBuffers")(device, &allocate, &commands);
 	const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
 	vulkan<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(commands, &begin);
-	const VkImageSubresourceRange all{VK_IMAGE_ASPECT_COLOR_BIT, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+	const bool isDepth = gpu::isDepth(format);
+	const VkAccessFlags attachment = isDepth ? VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT : VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+	const VkPipelineStageFlags stage =
+		isDepth ? VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT : VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+	const VkImageSubresourceRange all{gpu::aspectOf(format), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
 	VkImageMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
-								 .srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+								 .srcAccessMask = attachment,
 								 .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-								 .oldLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+								 .oldLayout = gpu::boundaryLayout(format),
 								 .newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
 								 .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
 								 .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
 								 .image = image,
 								 .subresourceRange = all};
 	const auto pipelineBarrier = vulkan<PFN_vkCmdPipelineBarrier>("vkCmdPipelineBarrier");
-	pipelineBarrier(commands, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1,
+	pipelineBarrier(commands, stage, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1,
 					&barrier);
-	const VkClearColorValue colour{{red, 0, 0, 1}};
-	vulkan<PFN_vkCmdClearColorImage>("vkCmdClearColorImage")(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &colour, 1, &all);
+	const VkClearColorValue colour{{value, 0, 0, 1}};
+	const VkClearDepthStencilValue depth{value, 0};
+	constexpr VkImageLayout layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+	if (isDepth)
+		vulkan<PFN_vkCmdClearDepthStencilImage>("vkCmdClearDepthStencilImage")(commands, image, layout, &depth, 1, &all);
+	else
+		vulkan<PFN_vkCmdClearColorImage>("vkCmdClearColorImage")(commands, image, layout, &colour, 1, &all);
 	std::swap(barrier.srcAccessMask, barrier.dstAccessMask);
 	std::swap(barrier.oldLayout, barrier.newLayout);
-	pipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, 0, 0, nullptr, 0, nullptr, 1,
+	pipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, stage, 0, 0, nullptr, 0, nullptr, 1,
 					&barrier);
 	vulkan<PFN_vkEndCommandBuffer>("vkEndCommandBuffer")(commands);
 	const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};

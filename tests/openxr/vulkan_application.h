@@ -1,5 +1,6 @@
 // A Vulkan application's instance, device and queue, made through XR_KHR_vulkan_enable2, with the validation layer where it is installed.
 #pragma once
+#include "runtime/gpu/image_spec.h"
 #include "runtime/openxr/vulkan/vulkan_api.h"
 #include "tests/openxr/application.h"
 #include <memory>
@@ -14,8 +15,9 @@ public:
 	~VulkanApplication();
 	VulkanApplication(const VulkanApplication &) = delete;
 
-	/// Fills the image with a colour as an application would: from the layout it is handed over in, and back to it.
-	void clear(VkImage image, float red);
+	/// Fills the image with opaque red, or with that depth, as an application would: from the layout it is handed over in, and back to it.
+	void clear(VkImage image, float value, VkFormat format = VK_FORMAT_R8G8B8A8_SRGB);
+	PFN_vkGetInstanceProcAddr getInstanceProcAddr() const { return getInstanceProcAddr_; }
 	/// Messages of the validation layer so far.
 	int complaints() const { return complaints_; }
 

@@ -49,10 +49,16 @@ void print(const nlohmann::json &status)
 								 camera["dropped"].get<uint64_t>(), camera["malformed"].get<uint64_t>());
 	std::cout << fmt::format("tracker   {}: {:.0f} samples per second, {} lost, {} malformed reports\n", tracker["name"].get<std::string>(),
 							 tracker["rate"].get<double>(), tracker["lost"].get<uint64_t>(), tracker["malformed"].get<uint64_t>());
-	for (const auto &client : status["clients"])
+	for (const auto &client : status["clients"]) {
 		std::cout << fmt::format("client    {} (pid {}): {}, {} submitted, {} shown, seen {} after they came\n",
 								 client["name"].get<std::string>(), client["pid"].get<int>(), client["state"].get<std::string>(),
 								 client["submitted"].get<uint64_t>(), client["shown"].get<uint64_t>(), figure(client["latencyMs"]));
+		for (const auto &swapchain : client["swapchains"])
+			std::cout << fmt::format("          {} images of {}x{}, {} layers, VkFormat {}, {}\n", swapchain["images"].get<int>(),
+									 swapchain["width"].get<int>(), swapchain["height"].get<int>(), swapchain["arrayLayers"].get<int>(),
+									 swapchain["format"].get<int>(),
+									 swapchain["copied"].get<bool>() ? "copied through the CPU's memory" : "in shared memory of the GPU");
+	}
 }
 
 } // namespace

@@ -10,6 +10,7 @@ namespace arift::openxr
 	X(EnumerateDeviceExtensionProperties)                                                                                                  \
 	X(GetPhysicalDeviceProperties)                                                                                                         \
 	X(GetPhysicalDeviceImageFormatProperties)                                                                                              \
+	X(GetPhysicalDeviceMemoryProperties)                                                                                                   \
 	X(GetPhysicalDeviceQueueFamilyProperties)                                                                                              \
 	X(GetDeviceProcAddr)                                                                                                                   \
 	X(CreateDevice)                                                                                                                        \
@@ -28,12 +29,19 @@ namespace arift::openxr
 	X(GetImageMemoryRequirements)                                                                                                          \
 	X(AllocateMemory)                                                                                                                      \
 	X(FreeMemory)                                                                                                                          \
+	X(MapMemory)                                                                                                                           \
+	X(UnmapMemory)                                                                                                                         \
+	X(CreateBuffer)                                                                                                                        \
+	X(DestroyBuffer)                                                                                                                       \
+	X(GetBufferMemoryRequirements)                                                                                                         \
+	X(BindBufferMemory)                                                                                                                    \
 	X(BindImageMemory)                                                                                                                     \
 	X(CreateCommandPool)                                                                                                                   \
 	X(DestroyCommandPool)                                                                                                                  \
 	X(AllocateCommandBuffers)                                                                                                              \
 	X(BeginCommandBuffer)                                                                                                                  \
 	X(EndCommandBuffer)                                                                                                                    \
+	X(CmdCopyImageToBuffer)                                                                                                                \
 	X(CmdPipelineBarrier)
 
 #define ARIFT_MEMBER(name) PFN_vk##name name;

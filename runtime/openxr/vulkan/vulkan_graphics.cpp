@@ -1,7 +1,9 @@
 #include "runtime/openxr/vulkan/vulkan_graphics.h"
 #include "runtime/gpu/swapchain_formats.h"
+#include "runtime/openxr/vulkan/vulkan_copied_images.h"
 #include "runtime/openxr/vulkan/vulkan_images.h"
 #include <algorithm>
+#include <cstring>
 
 namespace arift::openxr
 {
@@ -12,7 +14,7 @@ std::vector<int64_t> formatsOf(const VulkanInstanceApi &vulkan, VkPhysicalDevice
 {
 	if (!vulkan.GetPhysicalDeviceImageFormatProperties2)
 		throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "the VkInstance was made without the extensions that sharing images needs");
-	return gpu::swapchainFormats(device, vulkan.GetPhysicalDeviceImageFormatProperties2);
+	return gpu::drawableFormats(device, vulkan.GetPhysicalDeviceImageFormatProperties2);
 }
 
 VkImageUsageFlags usageOf(XrSwapchainUsageFlags flags)
@@ -102,6 +104,7 @@ Completion::Outcome FencePool::wait(VkFence fence, XrDuration limit) const
 VulkanDevice::VulkanDevice(const VulkanInstanceApi &instanceApi, const XrGraphicsBindingVulkanKHR &binding)
 	: vulkan(instanceApi.GetDeviceProcAddr, binding.device), device(binding.device), queueFamily(binding.queueFamilyIndex)
 {
+	instanceApi.GetPhysicalDeviceMemoryProperties(binding.physicalDevice, &memory_);
 	uint32_t familyCount = 0;
 	instanceApi.GetPhysicalDeviceQueueFamilyProperties(binding.physicalDevice, &familyCount, nullptr);
 	if (queueFamily >= familyCount)
@@ -123,6 +126,13 @@ std::shared_ptr<Completion> VulkanDevice::submit(VkCommandBuffer commands)
 	return std::make_shared<FenceCompletion>(fences_, fence);
 }
 
+std::optional<uint32_t> VulkanDevice::memoryType(uint32_t allowed, VkMemoryPropertyFlags wanted) const
+{
+	for (uint32_t type = 0; type < memory_.memoryTypeCount; ++type)
+		if ((allowed >> type & 1) && (memory_.memoryTypes[type].propertyFlags & wanted) == wanted) return type;
+	return std::nullopt;
+}
+
 VulkanGraphics::VulkanGraphics(const VulkanInstanceApi &instanceApi, const XrGraphicsBindingVulkanKHR &binding)
 	: instanceApi_(instanceApi),
 	  physicalDevice_(requireBinding(binding).physicalDevice),
@@ -132,10 +142,26 @@ VulkanGraphics::VulkanGraphics(const VulkanInstanceApi &instanceApi, const XrGra
 {
 }
 
-gpu::ImageSpec VulkanGraphics::specOf(const XrSwapchainCreateInfo &info) const
+bool VulkanGraphics::sees(const MemoryProbe &probe) const
 {
-	if (std::ranges::find(formats_, info.format) == formats_.end())
-		throw Error(XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED, "VkFormat {} is not one of xrEnumerateSwapchainFormats", info.format);
+	const VulkanDeviceApi &vulkan = device_.vulkan;
+	if (probe.typeIndex >= 32 || !device_.memoryType(1u << probe.typeIndex, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT)) return false;
+	const VkImportMemoryFdInfoKHR import{VK_STRUCTURE_TYPE_IMPORT_MEMORY_FD_INFO_KHR, nullptr, gpu::sharedHandleType, probe.memory.get()};
+	const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &import, probe.size, probe.typeIndex};
+	VkDeviceMemory memory = VK_NULL_HANDLE;
+	if (vulkan.AllocateMemory(device_.device, &info, nullptr, &memory) != VK_SUCCESS) return false;
+	probe.memory.release(); // Vulkan's now
+	void *bytes = nullptr;
+	const bool isMapped = vulkan.MapMemory(device_.device, memory, 0, VK_WHOLE_SIZE, 0, &bytes) == VK_SUCCESS;
+	const bool isSame =
+		isMapped && probe.pattern.size() <= probe.size && std::memcmp(bytes, probe.pattern.data(), probe.pattern.size()) == 0;
+	if (isMapped) vulkan.UnmapMemory(device_.device, memory);
+	vulkan.FreeMemory(device_.device, memory, nullptr);
+	return isSame;
+}
+
+gpu::ImageSpec VulkanGraphics::specOf(const XrSwapchainCreateInfo &info, ipc::Sharing sharing) const
+{
 	gpu::ImageSpec spec;
 	spec.format = int32_t(info.format);
 	spec.usage = usageOf(info.usageFlags);
@@ -146,7 +172,7 @@ gpu::ImageSpec VulkanGraphics::specOf(const XrSwapchainCreateInfo &info) const
 	spec.arrayLayers = info.arraySize * info.faceCount;
 	spec.mipLevels = info.mipCount;
 	spec.samples = info.sampleCount;
-	spec.inRows = gpu::canLieInRows(id_.deviceType, spec) ? 1 : 0;
+	spec.inRows = sharing == ipc::Sharing::memory && gpu::canLieInRows(id_.deviceType, spec) ? 1 : 0;
 	VkExternalMemoryImageCreateInfo external;
 	const VkImageCreateInfo create = gpu::imageCreateInfo(spec, external);
 	VkImageFormatProperties limits{};
@@ -162,6 +188,7 @@ gpu::ImageSpec VulkanGraphics::specOf(const XrSwapchainCreateInfo &info) const
 
 std::unique_ptr<SwapchainImages> VulkanGraphics::import(const gpu::ImageSpec &spec, const SharedMemory &memory)
 {
+	if (memory.sharing == ipc::Sharing::copies) return std::make_unique<VulkanCopiedImages>(device_, spec, memory);
 	return std::make_unique<VulkanImages>(device_, spec, memory);
 }
 

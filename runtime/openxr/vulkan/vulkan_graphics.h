@@ -4,6 +4,7 @@
 #include "runtime/base/guarded.h"
 #include "runtime/openxr/graphics.h"
 #include "runtime/openxr/vulkan/physical_device.h"
+#include <optional>
 
 namespace arift::openxr
 {
@@ -37,11 +38,15 @@ public:
 	/// Submits one command buffer to the application's queue.
 	std::shared_ptr<Completion> submit(VkCommandBuffer commands);
 
+	/// A memory type among `allowed` with every flag of `wanted`; nothing where none has.
+	std::optional<uint32_t> memoryType(uint32_t allowed, VkMemoryPropertyFlags wanted) const;
+
 	const VulkanDeviceApi vulkan;
 	const VkDevice device;
 	const uint32_t queueFamily;
 
 private:
+	VkPhysicalDeviceMemoryProperties memory_{};
 	VkQueue queue_ = VK_NULL_HANDLE;
 	std::shared_ptr<FencePool> fences_;
 };
@@ -53,7 +58,8 @@ public:
 	std::array<uint8_t, 16> deviceUuid() const override { return id_.deviceUuid; }
 	std::array<uint8_t, 16> driverUuid() const override { return id_.driverUuid; }
 	const std::vector<int64_t> &formats() const override { return formats_; }
-	gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info) const override;
+	bool sees(const MemoryProbe &probe) const override;
+	gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info, ipc::Sharing sharing) const override;
 	std::unique_ptr<SwapchainImages> import(const gpu::ImageSpec &spec, const SharedMemory &memory) override;
 
 private:

@@ -2,13 +2,23 @@
 
 namespace arift::openxr
 {
-namespace
+
+void describeImages(std::span<XrSwapchainImageBaseHeader *const> elements, const std::vector<VkImage> &images)
 {
+	for (const XrSwapchainImageBaseHeader *element : elements)
+		if (element->type != XR_TYPE_SWAPCHAIN_IMAGE_VULKAN_KHR)
+			throw Error(XR_ERROR_VALIDATION_FAILURE, "an element's type is {}, not XR_TYPE_SWAPCHAIN_IMAGE_VULKAN_KHR", int(element->type));
+	for (size_t i = 0; i < elements.size(); ++i) reinterpret_cast<XrSwapchainImageVulkanKHR *>(elements[i])->image = images[i];
+}
 
-constexpr XrDuration workLimit = second;
-constexpr VkAccessFlags everyAccess = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
-
-} // namespace
+void beginCommands(const VulkanDeviceApi &vulkan, VkCommandBuffer commands)
+{
+	const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+										.pNext = nullptr,
+										.flags = VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT,
+										.pInheritanceInfo = nullptr};
+	requireSuccess(vulkan.BeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
+}
 
 VulkanImages::VulkanImages(VulkanDevice &device, const gpu::ImageSpec &spec, const SharedMemory &memory)
 	: device_(device), images_(memory.fds.size())
@@ -107,12 +117,7 @@ void VulkanImages::recordBarriers(Image &image, VkFormat format)
 void VulkanImages::record(VkCommandBuffer commands, const VkImageMemoryBarrier &barrier, bool isHandOver) const
 {
 	const VulkanDeviceApi &vulkan = device_.vulkan;
-	// An image that is released without being shown may be taken over again before its last barrier has run.
-	const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-										.pNext = nullptr,
-										.flags = VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT,
-										.pInheritanceInfo = nullptr};
-	requireSuccess(vulkan.BeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
+	beginCommands(vulkan, commands);
 	const VkPipelineStageFlags before = isHandOver ? VK_PIPELINE_STAGE_ALL_COMMANDS_BIT : VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT;
 	const VkPipelineStageFlags after = isHandOver ? VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT : VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
 	vulkan.CmdPipelineBarrier(commands, before, after, 0, 0, nullptr, 0, nullptr, 1, &barrier);
@@ -121,10 +126,9 @@ void VulkanImages::record(VkCommandBuffer commands, const VkImageMemoryBarrier &
 
 void VulkanImages::describe(std::span<XrSwapchainImageBaseHeader *const> elements) const
 {
-	for (const XrSwapchainImageBaseHeader *element : elements)
-		if (element->type != XR_TYPE_SWAPCHAIN_IMAGE_VULKAN_KHR)
-			throw Error(XR_ERROR_VALIDATION_FAILURE, "an element's type is {}, not XR_TYPE_SWAPCHAIN_IMAGE_VULKAN_KHR", int(element->type));
-	for (size_t i = 0; i < elements.size(); ++i) reinterpret_cast<XrSwapchainImageVulkanKHR *>(elements[i])->image = images_[i].image;
+	std::vector<VkImage> images;
+	for (const Image &image : images_) images.push_back(image.image);
+	describeImages(elements, images);
 }
 
 void VulkanImages::takeOver(uint32_t index)

@@ -5,6 +5,14 @@
 namespace arift::openxr
 {
 
+/// How long (real time) the end of a swapchain waits for the work on it.
+constexpr XrDuration workLimit = second;
+constexpr VkAccessFlags everyAccess = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+/// SwapchainImages::describe for images that are `images`.
+void describeImages(std::span<XrSwapchainImageBaseHeader *const> elements, const std::vector<VkImage> &images);
+/// Begins commands that may be submitted again before they have run: an image may be released without being shown.
+void beginCommands(const VulkanDeviceApi &vulkan, VkCommandBuffer commands);
+
 class VulkanImages final : public SwapchainImages
 {
 public:

@@ -1,5 +1,5 @@
 #include "tests/bench/frames/ring_recording.h"
-#include <array>
+#include "tests/common/euroc_folder.h"
 #include <cstdint>
 #include <fmt/core.h>
 #include <fstream>
@@ -16,8 +16,8 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t width = 752, height = 480, images = 30;
-constexpr int64_t begin = 1'403'715'273'262'142'976, step = 1'000'000'000 / images; // nanoseconds since 1970
+constexpr uint32_t width = 752, height = 480;
+constexpr int images = 30;
 
 void appendBigEndian(std::string &to, uint32_t value)
 {
@@ -64,28 +64,16 @@ std::string picture(uint32_t number)
 	return pixels;
 }
 
-/// `rows`: the sensor in the body frame, three rows of four.
-void writeSensor(const fs::path &folder, const std::string &kind, const std::string &rows, const std::string &more)
-{
-	fs::create_directories(folder);
-	std::ofstream(folder / "sensor.yaml") << "%YAML:1.0\nsensor_type: " << kind << "\nT_BS:\n  cols: 4\n  rows: 4\n  data: [" << rows
-										  << ", 0.0, 0.0, 0.0, 1.0]\n"
-										  << more;
-}
-
 void writeCamera(const fs::path &folder, double right)
 {
-	writeSensor(folder, "camera", fmt::format("1.0, 0.0, 0.0, {}, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0", right),
-				fmt::format("rate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\nintrinsics: [400.0, 400.0, 375.5, 239.5]\n"
-							"distortion_model: radial-tangential\ndistortion_coefficients: [-0.01, 0.001, 0.0, 0.0]\n",
-							images, width, height));
-	std::ofstream csv(folder / "data.csv");
-	csv << "#timestamp [ns],filename\n";
-	for (uint32_t i = 0; i < images; ++i) {
-		const int64_t time = begin + i * step;
-		csv << fmt::format("{0},{0}.png\n", time);
-		writeStoredPng(folder / "data" / fmt::format("{}.png", time), picture(i));
-	}
+	test::writeEurocCamera(folder,
+						   {.inBody = fmt::format("1.0, 0.0, 0.0, {}, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0", right),
+							.width = width,
+							.height = height,
+							.focalLength = 400,
+							.rate = images,
+							.images = images},
+						   [](const fs::path &file, int number) { writeStoredPng(file, picture(uint32_t(number))); });
 }
 
 } // namespace
@@ -94,11 +82,7 @@ void writeRing(const fs::path &folder)
 {
 	writeCamera(folder / "mav0/cam0", -0.032);
 	writeCamera(folder / "mav0/cam1", 0.032);
-	const fs::path imu = folder / "mav0/imu0";
-	writeSensor(imu, "imu", "1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0", "rate_hz: 200\n");
-	std::ofstream csv(imu / "data.csv");
-	csv << "#timestamp [ns],w_x,w_y,w_z,a_x,a_y,a_z\n";
-	for (int i = 0; i < 400; ++i) csv << fmt::format("{},0,0,0,0,9.81,0\n", begin - 500'000'000 + i * 5'000'000);
+	test::writeEurocImu(folder / "mav0/imu0", {0, 0, 0}, {0, 9.81, 0});
 }
 
 } // namespace arift::bench

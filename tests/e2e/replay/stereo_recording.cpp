@@ -1,7 +1,7 @@
 #include "tests/e2e/replay/stereo_recording.h"
+#include "tests/common/euroc_folder.h"
 #include "tests/unit/drivers/recordings.h"
 #include <fmt/core.h>
-#include <fstream>
 
 namespace arift::e2e
 {
@@ -11,7 +11,6 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr uint32_t width = 376, height = 240;
-constexpr int64_t begin = 1'403'715'273'262'142'976; // nanoseconds since 1970
 
 std::vector<uint8_t> chequers(uint8_t dark, uint8_t light)
 {
@@ -22,30 +21,16 @@ std::vector<uint8_t> chequers(uint8_t dark, uint8_t light)
 	return pixels;
 }
 
-/// `rows`: the sensor in the body frame, three rows of four.
-void writeSensor(const fs::path &folder, const std::string &kind, const std::string &rows, const std::string &more)
-{
-	fs::create_directories(folder);
-	std::ofstream(folder / "sensor.yaml") << "%YAML:1.0\nsensor_type: " << kind << "\nT_BS:\n  cols: 4\n  rows: 4\n  data: [" << rows
-										  << ", 0.0, 0.0, 0.0, 1.0]\n"
-										  << more;
-}
-
 void writeCamera(const fs::path &folder, double left, uint8_t dark, uint8_t light)
 {
 	// Camera axes in the body: right is -y, down is -x, forward is -z.
-	writeSensor(folder, "camera", fmt::format("0.0, -1.0, 0.0, 0.0, -1.0, 0.0, 0.0, {}, 0.0, 0.0, -1.0, 0.0", left),
-				fmt::format("rate_hz: 20\nresolution: [{}, {}]\ncamera_model: pinhole\nintrinsics: [170.0, 170.0, 187.5, 119.5]\n"
-							"distortion_model: radial-tangential\ndistortion_coefficients: [-0.01, 0.001, 0.0, 0.0]\n",
-							width, height));
 	const std::vector<uint8_t> pixels = chequers(dark, light);
-	std::ofstream csv(folder / "data.csv");
-	csv << "#timestamp [ns],filename\n";
-	for (int i = 0; i < 20; ++i) {
-		const int64_t time = begin + i * 50'000'000;
-		csv << fmt::format("{0},{0}.png\n", time);
-		test::writeGreyPng(folder / "data" / fmt::format("{}.png", time), width, height, pixels);
-	}
+	test::writeEurocCamera(folder,
+						   {.inBody = fmt::format("0.0, -1.0, 0.0, 0.0, -1.0, 0.0, 0.0, {}, 0.0, 0.0, -1.0, 0.0", left),
+							.width = width,
+							.height = height,
+							.focalLength = 170},
+						   [&](const fs::path &file, int) { test::writeGreyPng(file, width, height, pixels); });
 }
 
 } // namespace
@@ -54,11 +39,7 @@ void writeStereoRecording(const fs::path &folder, double yawRate)
 {
 	writeCamera(folder / "mav0/cam0", 0.032, 20, 110);
 	writeCamera(folder / "mav0/cam1", -0.032, 110, 220);
-	const fs::path imu = folder / "mav0/imu0";
-	writeSensor(imu, "imu", "1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0", "rate_hz: 200\n");
-	std::ofstream csv(imu / "data.csv");
-	csv << "#timestamp [ns],w_x,w_y,w_z,a_x,a_y,a_z\n";
-	for (int i = 0; i < 400; ++i) csv << fmt::format("{},{},0,0,9.81,0,0\n", begin - 500'000'000 + i * 5'000'000, yawRate);
+	test::writeEurocImu(folder / "mav0/imu0", {yawRate, 0, 0}, {9.81, 0, 0});
 }
 
 } // namespace arift::e2e

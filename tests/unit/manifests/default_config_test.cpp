@@ -44,6 +44,7 @@ TEST(DefaultConfiguration, ReadsAsTheDefaults)
 	EXPECT_EQ(given.eyeHeight, defaults.eyeHeight);
 	EXPECT_EQ(given.bounds, defaults.bounds);
 	EXPECT_EQ(given.target, defaults.target);
+	EXPECT_EQ(given.images, defaults.images);
 }
 
 TEST(DefaultConfiguration, TheSyntheticHeadsetsSettingsAreItsDefaults)

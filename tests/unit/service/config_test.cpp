@@ -54,6 +54,8 @@ eye_height = 1.2
 bounds = [3, 4.5]
 [compositor]
 target = "offscreen"
+[swapchains]
+images = "copy"
 [synthetic]
 motion = "rest"
 [replay]
@@ -69,6 +71,7 @@ recording = "walk"
 	EXPECT_EQ(config.eyeHeight, 1.2);
 	EXPECT_EQ(config.bounds, (std::array{3.0, 4.5}));
 	EXPECT_EQ(config.target, TargetKind::offscreen);
+	EXPECT_EQ(config.images, ImageSharing::copies);
 	EXPECT_EQ(config.recording, root_ / "walk");
 }
 

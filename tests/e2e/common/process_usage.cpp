@@ -1,9 +1,11 @@
-#include "tests/e2e/kills/process_usage.h"
+#include "tests/e2e/common/process_usage.h"
+#include "runtime/base/clock.h"
 #include "tests/e2e/common/command.h"
 #include <algorithm>
 #include <filesystem>
 #include <fmt/core.h>
 #include <fstream>
+#include <thread>
 #include <unistd.h>
 
 namespace arift::e2e
@@ -30,6 +32,17 @@ ProcessUsage usageOf(int pid)
 	std::ifstream(process / "statm") >> total >> resident;
 	return {entriesOf(process / "fd"), size_t(std::ranges::count(maps, '\n')), entriesOf(process / "task"),
 			double(resident) * double(::sysconf(_SC_PAGESIZE)) / (1 << 20)};
+}
+
+ProcessUsage settledUsage(int pid)
+{
+	ProcessUsage before, now = usageOf(pid);
+	for (const XrTime end = realTime() + 60 * second; realTime() < end;) {
+		std::this_thread::sleep_for(std::chrono::milliseconds(200));
+		before = std::exchange(now, usageOf(pid));
+		if (now.descriptors == before.descriptors && now.threads == before.threads && now.mappings == before.mappings) break;
+	}
+	return now;
 }
 
 std::string describe(const ProcessUsage &usage)

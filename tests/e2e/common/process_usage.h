@@ -12,6 +12,8 @@ struct ProcessUsage {
 };
 /// Zeros where there is no such process.
 ProcessUsage usageOf(int pid);
+/// The same once it stays for a moment: clients, threads and descriptors go with a connection, a moment after it.
+ProcessUsage settledUsage(int pid);
 /// For people.
 std::string describe(const ProcessUsage &usage);
 
