@@ -86,7 +86,8 @@ Swapchain::Swapchain(Session &owner, const XrSwapchainCreateInfo &info)
 	  allocated_(session, spec_, info.createFlags & XR_SWAPCHAIN_CREATE_STATIC_IMAGE_BIT),
 	  images_(session.graphics()->import(spec_, allocated_.memory())),
 	  turns_(Turns{ImageQueue(allocated_.count(), info.createFlags & XR_SWAPCHAIN_CREATE_STATIC_IMAGE_BIT),
-				   std::vector<std::shared_ptr<Completion>>(allocated_.count()), std::nullopt, 0})
+				   std::vector<std::shared_ptr<Completion>>(allocated_.count()), std::vector<uint32_t>(allocated_.count()), std::nullopt,
+				   0})
 {
 }
 
@@ -164,8 +165,8 @@ void Swapchain::release()
 	const auto turns = turns_.lock();
 	turns->work[image].swap(work);
 	turns->queue.release();
-}
 	turns->releases[image] = std::max(turns->releases[image] + 1, 1u); // 0 says nothing
+}
 
 std::optional<Swapchain::Released> Swapchain::newestImage()
 {

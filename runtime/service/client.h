@@ -54,8 +54,8 @@ private:
 	}
 	void refuse(const ipc::Header &request, XrResult result, const std::string &text);
 	void stopSession();
-	Session &sessionNumbered(uint32_t number);
 	ipc::Sharing sharingFor(const ipc::CreateSession &message) const;
+	Session &sessionNumbered(uint32_t number);
 
 	World &world_;
 	ipc::Socket socket_;
