@@ -67,11 +67,6 @@ endif()
   endif()
 endfunction()
 
-# A Google Benchmark program; run by tools/test.sh, which prints its figures.
-function(arift_benchmark name)
-  cmake_parse_arguments(BENCH "" "" "SOURCES;USES" ${ARGN})
-  add_executable(bench_${name} ${BENCH_SOURCES})
-  target_link_libraries(bench_${name} PRIVATE arift_options ${BENCH_USES} benchmark::benchmark benchmark::benchmark_main)
 # An application of the tests' own, see tests/e2e/common/drawing_application.h. arift_drawing_program(stopping_application SOURCES x.cpp)
 function(arift_drawing_program name)
   cmake_parse_arguments(PROGRAM "" "" "SOURCES" ${ARGN})
@@ -80,4 +75,12 @@ function(arift_drawing_program name)
   arift_keep_vulkan_loaded(${name})
 endfunction()
 
+# A Google Benchmark program; run by tools/test.sh, which prints its figures.
+function(arift_benchmark name)
+  cmake_parse_arguments(BENCH "" "" "SOURCES;USES" ${ARGN})
+  add_executable(bench_${name} ${BENCH_SOURCES})
+  target_link_libraries(bench_${name} PRIVATE arift_options ${BENCH_USES} benchmark::benchmark benchmark::benchmark_main)
+  if(ARIFT_SANITIZE)
+    set_target_properties(bench_${name} PROPERTIES EXCLUDE_FROM_ALL ON) # what it would print means nothing
+  endif()
 endfunction()

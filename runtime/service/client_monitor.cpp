@@ -98,10 +98,6 @@ void describeClient(nlohmann::json &list, const Client::About &about)
 		entry["shown"] = count.shown;
 		entry["latencyMs"] = describe(about.session->latency());
 	}
-	list.push_back(std::move(entry));
-}
-
-} // namespace arift
 	entry["swapchains"] = nlohmann::json::array();
 	if (about.swapchains)
 		for (const Swapchains::About &swapchain : about.swapchains->abouts())
@@ -111,3 +107,7 @@ void describeClient(nlohmann::json &list, const Client::About &about)
 										   {"format", swapchain.spec.format},
 										   {"images", swapchain.imageCount},
 										   {"copied", swapchain.sharing == ipc::Sharing::copies}});
+	list.push_back(std::move(entry));
+}
+
+} // namespace arift
