@@ -170,11 +170,11 @@ changed_since() {
 	done
 }
 
-# As many at a time as there are processors, for at most five minutes: what is left then is named and belongs to a run with --all. What
+# As many at a time as there are processors, for at most three minutes: what is left then is named and belongs to a run with --all. What
 # the newest commit changed comes first. Where it is not known what changed, every file is read as far as time allows, in another order
 # each time.
 stage_tidy() {
-	local limit=300 base commit result
+	local limit=180 base commit result
 	# It reads what the compiler would: generated and precompiled headers too.
 	build asan arift_gtest_headers arift_panel >"$work/tidy.build" 2>&1 || { tail -20 "$work/tidy.build"; return 1; }
 	if $tidy_all; then

@@ -39,6 +39,8 @@ toml::table parseSetting(const std::string &setting, const std::string &source)
 
 TomlDocument::TomlDocument(const std::filesystem::path &file) : table_(parseTomlFile(file)), name_(file.string()) {}
 
+void TomlDocument::add(const std::filesystem::path &file) { merge(table_, parseTomlFile(file)); }
+
 void TomlDocument::set(const std::string &setting)
 {
 	const std::string source = "--set " + setting;

@@ -44,6 +44,7 @@ private:
 	void answer(const ipc::GetStatus &message);
 	void answer(const ipc::Screenshot &message);
 	void answer(const ipc::SetSetting &message);
+	void keep(const char *key, float value);
 	void answer(const ipc::Recenter &message);
 	void answer(const ipc::ShutDown &message);
 	template <typename Reply> void reply(const ipc::Header &request, Reply message, std::span<const int> fds = {})

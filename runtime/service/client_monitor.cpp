@@ -44,6 +44,16 @@ void Client::answer(const ipc::Screenshot &message)
 	reply(message.header, answer, {&fd, 1});
 }
 
+/// It is in effect whether or not it can be kept.
+void Client::keep(const char *key, float value)
+{
+	try {
+		world_.overrides.keep("passthrough", key, value);
+	} catch (const std::exception &problem) {
+		log::warning("passthrough.{} = {} holds until the service ends: {}", key, value, problem.what());
+	}
+}
+
 void Client::answer(const ipc::SetSetting &message)
 {
 	const Opened opened = world_.await(Stage::ready, ipc::openingLimit);
@@ -53,12 +63,14 @@ void Client::answer(const ipc::SetSetting &message)
 			throw Refused(XR_ERROR_VALIDATION_FAILURE,
 						  fmt::format("view_offset = {}, expected a number from 0 (eye) to 1 (camera)", message.value));
 		world_.views.update([&](ipc::ViewTable &views) { views.viewOffset = message.value; });
+		keep("view_offset", message.value);
 		break;
 	case ipc::Setting::passthroughDistance:
 		if (message.value < 0.1f || message.value > 1000)
 			throw Refused(XR_ERROR_VALIDATION_FAILURE,
 						  fmt::format("passthrough_distance = {}, expected metres from 0.1 to 1000", message.value));
 		opened.compositor->setPassthroughDistance(double(message.value));
+		keep("distance", message.value);
 		break;
 	case ipc::Setting::rawPassthrough: opened.compositor->setRawPassthrough(message.value != 0); break;
 	}

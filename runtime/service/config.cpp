@@ -105,9 +105,10 @@ fs::path findConfig(const fs::path &given)
 	return fs::exists(usual) ? usual : fs::path();
 }
 
-Config readConfig(const fs::path &file, const std::vector<std::string> &overrides)
+Config readConfig(const fs::path &file, const std::vector<std::string> &overrides, const fs::path &programs)
 {
 	const auto document = file.empty() ? std::make_shared<TomlDocument>() : std::make_shared<TomlDocument>(file);
+	if (fs::exists(programs)) document->add(programs);
 	for (const std::string &setting : overrides) document->set(setting);
 	return decode(document);
 }

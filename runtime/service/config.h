@@ -29,8 +29,8 @@ struct Config {
 	std::vector<XrEnvironmentBlendMode> blendModes{///< [passthrough] blend_modes, the favourite first
 												   XR_ENVIRONMENT_BLEND_MODE_OPAQUE, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND,
 												   XR_ENVIRONMENT_BLEND_MODE_ADDITIVE};
-	double eyeHeight = 1.6;             ///< [space] eye_height, metres
-	std::array<double, 2> bounds{2, 2}; ///< [space] bounds, metres
+	double eyeHeight = 1.6;                        ///< [space] eye_height, metres
+	std::array<double, 2> bounds{2, 2};            ///< [space] bounds, metres
 	TargetKind target = TargetKind::automatic;     ///< [compositor] target
 	ImageSharing images = ImageSharing::automatic; ///< [swapchains] images
 };
@@ -38,10 +38,11 @@ struct Config {
 /// Where the configuration is looked for: `given`, else $ARIFT_CONFIG, else config.toml in the configuration directory if it is there.
 std::filesystem::path findConfig(const std::filesystem::path &given);
 
-/// Reads `file` (may be empty: everything at its default) with `overrides` ("clock.mode=stepped", values as in TOML, quotes optional) above
-/// it; relative paths begin beside the file, those of overrides at the working directory. Throws InputError with file and line or override,
-/// value and what was expected; unknown keys are errors, in the tables of drivers that are not used too.
-Config readConfig(const std::filesystem::path &file, const std::vector<std::string> &overrides);
+/// Reads `file` (may be empty: everything at its default); above it `programs`, where there is such a file (Overrides); above both
+/// `overrides` ("clock.mode=stepped", values as in TOML, quotes optional). Relative paths begin beside their file, those of overrides at
+/// the working directory. Throws InputError with file and line or override, value and what was expected; unknown keys are errors, in the
+/// tables of drivers that are not used too.
+Config readConfig(const std::filesystem::path &file, const std::vector<std::string> &overrides, const std::filesystem::path &programs = {});
 
 const char *nameOf(ClockMode mode);
 

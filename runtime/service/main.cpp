@@ -2,6 +2,7 @@
 #include "runtime/ipc/launch.h"
 #include "runtime/ipc/runtime_directory.h"
 #include "runtime/service/build.h"
+#include "runtime/service/overrides.h"
 #include "runtime/service/service.h"
 #include "runtime/service/supervisor.h"
 #include <CLI/CLI.hpp>
@@ -94,7 +95,7 @@ int serve(const Arguments &arguments)
 			throw InputError("another arift-service is running (its lock is {}); `arift stop` ends it", ipc::lockPath().string());
 		return 0; // another was faster: whoever launched this one finds that
 	}
-	Service::Options options{readConfig(findConfig(arguments.config), arguments.overrides), std::nullopt};
+	Service::Options options{readConfig(findConfig(arguments.config), arguments.overrides, overridesFile()), std::nullopt};
 	// systemd starts it for its socket, and again when the next application comes.
 	const bool autoStarted = arguments.launched || std::getenv("LISTEN_PID");
 	if (arguments.idleExit > 0 || autoStarted) options.idleExit = fromSeconds(arguments.idleExit > 0 ? arguments.idleExit : 60);

@@ -4,6 +4,7 @@
 #include "runtime/service/build.h"
 #include "runtime/service/decode.h"
 #include "runtime/service/device_threads.h"
+#include "runtime/service/device_threads.h"
 #include "runtime/service/lens_outline.h"
 #include <cmath>
 #include <nlohmann/json.hpp>

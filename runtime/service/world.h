@@ -9,6 +9,7 @@
 #include "runtime/motion/pose_history.h"
 #include "runtime/service/applications.h"
 #include "runtime/service/config.h"
+#include "runtime/service/overrides.h"
 #include "runtime/service/realtime.h"
 #include <functional>
 #include <memory>
@@ -71,6 +72,7 @@ struct World {
 	Guarded<Opened> opened{};
 	std::unique_ptr<Trace> trace; ///< null: none is wanted
 	Realtime realtime;
+	Overrides overrides;
 	std::function<void()> requestStop;
 	/// One line per client for `arift status`.
 	std::function<void(nlohmann::json &)> describeClients;

@@ -44,6 +44,7 @@ TEST(Command, ShowsStatusTakesPicturesAndStops)
 	EXPECT_NE(nowhere.output.find("no/such/folder.png"), std::string::npos) << nowhere.output;
 
 	EXPECT_EQ(runArift(tree, {"set", "view_offset", "0.5"}).status, 0);
+	EXPECT_NE(contentOf(tree.root() / "config/arift/overrides.toml").find("view_offset = 0.5"), std::string::npos) << "for the next start";
 	const Ran wrong = runArift(tree, {"set", "view_offset", "7"});
 	EXPECT_EQ(wrong.status, 1);
 	EXPECT_NE(wrong.output.find("expected a number from 0 (eye) to 1 (camera)"), std::string::npos) << wrong.output;

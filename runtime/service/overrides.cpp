@@ -1,0 +1,52 @@
+#include "runtime/service/overrides.h"
+#include "runtime/base/error.h"
+#include "runtime/base/toml.h"
+#include "runtime/base/user_directories.h"
+#include <fstream>
+#include <sstream>
+#include <unistd.h>
+
+namespace arift
+{
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr const char *header = "# Written by programs (`arift set`), above config.toml. Take a line away to have your own setting again.\n";
+
+/// Complete, or as it was.
+void replace(const fs::path &file, const std::string &text)
+{
+	const fs::path next = file.string() + fmt::format(".{}", ::getpid());
+	std::ofstream(next) << text << std::flush;
+	std::error_code problem;
+	const bool complete = fs::file_size(next, problem) == text.size() && !problem;
+	if (complete) fs::rename(next, file, problem);
+	if (complete && !problem) return;
+	std::error_code ignored;
+	fs::remove(next, ignored);
+	throw InputError("{}: cannot be written{}", file.string(), problem ? ": " + problem.message() : "");
+}
+
+} // namespace
+
+fs::path overridesFile() { return configDirectory() / "overrides.toml"; }
+
+void Overrides::keep(const std::string &table, const std::string &key, float value)
+{
+	const auto writing = writing_.lock();
+	const fs::path file = file_.empty() ? overridesFile() : file_;
+	toml::table all = fs::exists(file) ? parseTomlFile(file) : toml::table{};
+	toml::table *const settings = all.emplace<toml::table>(table).first->second.as_table();
+	if (!settings) throw InputError("{}: {} is not a table", file.string(), table);
+	settings->insert_or_assign(key, std::stod(fmt::format("{}", value))); // 0.3, not the double nearest to the float
+	std::ostringstream text;
+	text << header << '\n' << all << '\n';
+	std::error_code ignored;
+	fs::create_directories(file.parent_path(), ignored); // what is wrong shows when the file is written
+	replace(file, text.str());
+}
+
+} // namespace arift

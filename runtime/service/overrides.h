@@ -1,0 +1,30 @@
+// Settings that programs change, kept for the next start: overrides.toml beside the user's own configuration, which is never rewritten.
+#pragma once
+#include "runtime/base/guarded.h"
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace arift
+{
+
+/// Of the user: overrides.toml in the configuration directory.
+std::filesystem::path overridesFile();
+
+/// Thread-safe.
+class Overrides
+{
+public:
+	/// `file` instead of the user's. Nothing is read: what it says is part of the configuration. It is made with the first setting.
+	explicit Overrides(std::filesystem::path file = {}) : file_(std::move(file)) {}
+
+	/// Keeps `table.key = value` and every other setting of the file. The file is replaced as a whole or not at all. Throws InputError that
+	/// names the file where it cannot be written, or holds something else than settings.
+	void keep(const std::string &table, const std::string &key, float value);
+
+private:
+	const std::filesystem::path file_;
+	Guarded<int> writing_{0}; ///< one at a time
+};
+
+} // namespace arift

@@ -1,0 +1,76 @@
+// Settings that programs change: kept, above the user's own and without touching them.
+#include "runtime/base/error.h"
+#include "runtime/service/config.h"
+#include "runtime/service/overrides.h"
+#include "tests/common/temporary_folder.h"
+#include <fstream>
+#include <gtest/gtest.h>
+#include <sstream>
+
+namespace arift
+{
+namespace
+{
+
+namespace fs = std::filesystem;
+
+struct OverridesFile : testing::Test {
+	const test::TemporaryFolder folder;
+	const fs::path file = folder.path() / "arift/overrides.toml";
+	Overrides overrides{file};
+
+	static std::string contentOf(const fs::path &path)
+	{
+		std::ostringstream text;
+		text << std::ifstream(path).rdbuf();
+		return text.str();
+	}
+};
+
+TEST_F(OverridesFile, StandAboveTheUsersOwnAndBelowTheCommandLine)
+{
+	const std::string users = "[passthrough]\nview_offset = 0.75\ndistance = 3.0\n";
+	const fs::path own = folder.write("config.toml", users);
+	overrides.keep("passthrough", "view_offset", 0.3f);
+	EXPECT_EQ(readConfig(own, {}, file).viewOffset, 0.3) << "as it was typed";
+	EXPECT_EQ(readConfig(own, {}, file).passthroughDistance, 3.0);
+	EXPECT_EQ(readConfig({}, {}, file).viewOffset, 0.3);
+	EXPECT_EQ(readConfig(own, {"passthrough.view_offset=0.5"}, file).viewOffset, 0.5);
+	EXPECT_EQ(contentOf(own), users);
+	EXPECT_EQ(readConfig(own, {}, folder.path() / "none.toml").viewOffset, 0.75) << "no program has changed anything yet";
+}
+
+TEST_F(OverridesFile, EverySettingIsKeptWhenAnotherChanges)
+{
+	overrides.keep("passthrough", "view_offset", 0.25f);
+	overrides.keep("passthrough", "distance", 1.5f);
+	overrides.keep("passthrough", "view_offset", 1);
+	const Config config = readConfig({}, {}, file);
+	EXPECT_EQ(config.viewOffset, 1.0);
+	EXPECT_EQ(config.passthroughDistance, 1.5);
+	EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), {}), 1) << "nothing is left beside it";
+}
+
+TEST_F(OverridesFile, ADamagedOneIsNamedAndLeftAlone)
+{
+	folder.write("arift/overrides.toml", "passthrough = 3\n");
+	for (const auto &attempt : {std::function<void()>([&] { readConfig({}, {}, file); }),
+								std::function<void()>([&] { overrides.keep("passthrough", "view_offset", 0); })}) {
+		try {
+			attempt();
+			FAIL() << "not noticed";
+		} catch (const InputError &error) {
+			EXPECT_NE(std::string(error.what()).find("overrides.toml"), std::string::npos) << error.what();
+		}
+	}
+	EXPECT_EQ(contentOf(file), "passthrough = 3\n");
+}
+
+TEST_F(OverridesFile, WhatCannotBeWrittenIsNamed)
+{
+	folder.write("arift", "a file where the folder should be");
+	EXPECT_THROW(overrides.keep("passthrough", "view_offset", 0), InputError);
+}
+
+} // namespace
+} // namespace arift
