@@ -99,7 +99,7 @@ TEST(DefaultConfiguration, ListsEverySetting)
 		if (std::regex_search(line, match, setting)) listed[section].insert(match[1]);
 	}
 	const std::vector<std::string> sections = keysOf("");
-	EXPECT_EQ(sections.size(), 6u);
+	EXPECT_EQ(sections.size(), 8u);
 	for (const std::string &name : sections) {
 		const std::vector<std::string> keys = keysOf(name + ".");
 		EXPECT_EQ(listed[name], std::set<std::string>(keys.begin(), keys.end())) << name;

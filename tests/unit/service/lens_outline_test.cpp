@@ -26,23 +26,23 @@ double depthIn(const ipc::LensOutline &outline, glm::dvec2 direction)
 	return least;
 }
 
-/// Nothing that the lens shows is hidden; of what it does not show, nothing is left but a rim of less than a panel pixel.
+/// Nothing that the lens shows is hidden, to half a panel pixel; of what it does not show, less than a pixel is left at the rim.
 TEST(LensOutline, IsWhatTheLensShowsOfTheFieldOfView)
 {
-	constexpr double pixel = 0.002;
+	constexpr double pixel = 0.004; // tangents at the rim, where the lens magnifies least
 	const LensModel lens{SplineLens{}};
 	const double rim = std::sqrt(lens.maxR2()) * lens.scale(lens.maxR2());
 	for (const Eye eye : {Eye::left, Eye::right}) {
 		const XrFovf fov = fovOf(lens, eye);
 		const ipc::LensOutline outline = lensOutline(lens, eye, fov);
-		ASSERT_EQ(outline.count, ipc::LensOutline::mostPoints);
+		ASSERT_GT(outline.count, 50u);
 		size_t shown = 0, hidden = 0;
 		for (double x = std::tan(fov.angleLeft) + 1e-3; x < std::tan(fov.angleRight); x += 0.02)
 			for (double y = std::tan(fov.angleDown) + 1e-3; y < std::tan(fov.angleUp); y += 0.02) {
 				const bool isShown = std::hypot(x, y) <= rim && lens.pixel(eye, Channel::green, {x, y});
 				(isShown ? shown : hidden)++;
 				if (isShown)
-					EXPECT_GT(depthIn(outline, {x, y}), -1e-5) << x << ' ' << y;
+					EXPECT_GT(depthIn(outline, {x, y}), -pixel / 2) << x << ' ' << y;
 				else
 					EXPECT_LT(depthIn(outline, {x, y}), pixel) << x << ' ' << y;
 			}
