@@ -100,6 +100,7 @@ TEST_F(VisibilityMask, ChecksWhatItIsAskedFor)
 	XrVector2f vertices[64];
 	mask.vertexCapacityInput = 64;
 	mask.vertices = vertices;
+	EXPECT_EQ(call(loop, mask), XR_SUCCESS) << "one capacity of 0 is as good as two";
 	mask.indexCapacityInput = 63;
 	EXPECT_EQ(call(loop, mask), XR_ERROR_SIZE_INSUFFICIENT);
 	EXPECT_EQ(mask.indexCountOutput, 64u);

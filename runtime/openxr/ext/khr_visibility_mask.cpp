@@ -87,7 +87,7 @@ XrResult getVisibilityMask(Session &session, XrViewConfigurationType type, uint3
 	const MaskMesh mesh = makeMask(maskType, std::span(lens.points).first(size), lens.centre, fov);
 	mask.vertexCountOutput = uint32_t(mesh.vertices.size());
 	mask.indexCountOutput = uint32_t(mesh.indices.size());
-	if (mask.vertexCapacityInput == 0 && mask.indexCapacityInput == 0) return XR_SUCCESS;
+	if (mask.vertexCapacityInput == 0 || mask.indexCapacityInput == 0) return XR_SUCCESS; // the size is asked for
 	if (mask.vertexCapacityInput < mask.vertexCountOutput || mask.indexCapacityInput < mask.indexCountOutput)
 		return XR_ERROR_SIZE_INSUFFICIENT;
 	if (!mask.vertices || !mask.indices) throw Error(XR_ERROR_VALIDATION_FAILURE, "vertices or indices is null but its capacity is not 0");
