@@ -189,7 +189,7 @@ struct SubImage {
 	uint32_t swapchain = 0;
 	uint32_t image = 0; ///< index in the swapchain: the one released last
 	uint32_t arrayIndex = 0;
-	int32_t x = 0, y = 0; ///< rectangle in texels, origin at the top left
+	int32_t x = 0, y = 0; ///< rectangle in texels, from the first one in memory
 	int32_t width = 0, height = 0;
 	uint32_t release = 0; ///< how often the image had been released: its content is the same while this is; 0: who knows
 };
@@ -216,6 +216,8 @@ struct Submission {
 	XrTime displayTime = 0;
 	int32_t blendMode = 0; ///< XrEnvironmentBlendMode
 	uint32_t layerCount = 0;
+	uint32_t rowsGoUp = 0; ///< 1: the first row of the images in memory is the lowest one
+	uint32_t reserved = 0;
 	std::array<Layer, maxLayers> layers;
 };
 /// The application needs an image that is being shown: drop this and earlier submissions.

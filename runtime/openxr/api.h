@@ -5,7 +5,14 @@
 #define VK_NO_PROTOTYPES
 #endif
 #include <vulkan/vulkan.h>
+#ifndef EGL_NO_X11
+#define EGL_NO_X11 // its types only, not X11's macros
+#endif
+#include <EGL/egl.h>
 #define XR_USE_GRAPHICS_API_VULKAN
+#define XR_USE_GRAPHICS_API_OPENGL
+#define XR_USE_GRAPHICS_API_OPENGL_ES
+#define XR_USE_PLATFORM_EGL
 #include "runtime/openxr/supplement_extensions.h"
 #include <openxr/openxr_platform.h>
 #include <openxr/openxr_reflection.h>

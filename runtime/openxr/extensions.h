@@ -12,6 +12,9 @@ namespace arift::openxr
 #define ARIFT_EXTENSIONS(X)                                                                                                                \
 	X(KHR_vulkan_enable)                                                                                                                   \
 	X(KHR_vulkan_enable2)                                                                                                                  \
+	X(KHR_opengl_enable)                                                                                                                   \
+	X(KHR_opengl_es_enable)                                                                                                                \
+	X(MNDX_egl_enable)                                                                                                                     \
 	X(KHR_convert_timespec_time)                                                                                                           \
 	X(KHR_extended_struct_name_lengths)                                                                                                    \
 	X(KHR_locate_spaces)                                                                                                                   \

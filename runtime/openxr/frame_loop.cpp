@@ -93,6 +93,7 @@ void Session::endFrame(const XrFrameEndInfo &info)
 		life->order.requireBegun();
 	}
 	FrameSubmission frame(*this, info);
+	for (const std::shared_ptr<Completion> &work : frame.work) work->settle();
 	if (submitter_) {
 		frame.submission.frame = ++submitted_;
 		frame.noteUse();

@@ -75,6 +75,7 @@ FrameSubmission::FrameSubmission(Session &session, const XrFrameEndInfo &info)
 {
 	submission.displayTime = info.displayTime;
 	submission.blendMode = info.environmentBlendMode;
+	submission.rowsGoUp = session.graphics() && session.graphics()->rowsGoUp() ? 1 : 0;
 	for (uint32_t i = 0; i < info.layerCount; ++i) addLayer(info.layers[i]);
 	for (const Use &use : uses_)
 		if (auto completion = use.swapchain->workOn(use.image)) work.push_back(std::move(completion));

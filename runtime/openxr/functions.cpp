@@ -9,6 +9,7 @@
 #include "runtime/openxr/ext/fb_display_refresh_rate.h"
 #include "runtime/openxr/ext/khr_convert_timespec_time.h"
 #include "runtime/openxr/ext/khr_visibility_mask.h"
+#include "runtime/openxr/ext/khr_opengl_enable.h"
 #include "runtime/openxr/ext/khr_vulkan_enable.h"
 #include "runtime/openxr/ext/khr_vulkan_enable2.h"
 #include "runtime/openxr/ext/meta_performance_metrics.h"
@@ -139,6 +140,8 @@ const Function functions[] = {
 	ARIFT_KHR_convert_timespec_time(ARIFT_OF_convert_timespec_time)
 	ARIFT_EXT_debug_utils(ARIFT_OF_debug_utils)
 	ARIFT_OF(xrStructureTypeToString2KHR, structureTypeToString2, KHR_extended_struct_name_lengths)
+	ARIFT_OF(xrGetOpenGLGraphicsRequirementsKHR, getOpenGLGraphicsRequirements, KHR_opengl_enable)
+	ARIFT_OF(xrGetOpenGLESGraphicsRequirementsKHR, getOpenGLESGraphicsRequirements, KHR_opengl_es_enable)
 	ARIFT_OF(xrLocateSpacesKHR, locateSpaces, KHR_locate_spaces)
 	ARIFT_OF(xrGetVisibilityMaskKHR, getVisibilityMask, KHR_visibility_mask)
 	ARIFT_OF(xrSetInputDeviceActiveEXT, setInputDeviceActive, EXT_conformance_automation)

@@ -24,6 +24,9 @@ public:
 	virtual ~Completion() = default;
 	/// How the work stands when it is finished or `limit` of real time has passed. Any thread.
 	virtual Outcome wait(XrDuration limit) const = 0;
+	/// In xrEndFrame, in the application's thread: waits, within a limit, for work that other threads cannot wait for. After it wait()
+	/// knows.
+	virtual void settle() {}
 };
 
 /// The images of one swapchain in the application's graphics API. Destroying them waits, within a limit, for the work on them.
@@ -63,11 +66,14 @@ public:
 	virtual ~Graphics() = default;
 	virtual std::array<uint8_t, 16> deviceUuid() const = 0;
 	virtual std::array<uint8_t, 16> driverUuid() const = 0;
-	/// Formats that the application's device can draw in, of any order: the service says which of them swapchains may have.
-	virtual const std::vector<int64_t> &formats() const = 0;
+	/// Whether the first row of an image is its lowest, and rectangles are measured from below: so it is with OpenGL.
+	virtual bool rowsGoUp() const { return false; }
+	/// Of the formats that the service says swapchains may have (VkFormats, its favourite first) those that the application's device can
+	/// draw in, as the numbers of the application's API.
+	virtual std::vector<int64_t> formatsOf(std::span<const int32_t> vulkan) const = 0;
 	/// Whether the application's device sees the probe's pattern where the service wrote it. An API that cannot look has the UUIDs alone.
 	virtual bool sees(const MemoryProbe &) const { return true; }
-	/// What the service is to make for a swapchain, one of formats(). Throws XR_ERROR_FEATURE_UNSUPPORTED.
+	/// What the service is to make for a swapchain, its format one of formatsOf(). Throws XR_ERROR_FEATURE_UNSUPPORTED.
 	virtual gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info, ipc::Sharing sharing) const = 0;
 	/// The images in the application's device; where they are copied, images of its own that are copied into `memory` when handed over.
 	virtual std::unique_ptr<SwapchainImages> import(const gpu::ImageSpec &spec, const SharedMemory &memory) = 0;

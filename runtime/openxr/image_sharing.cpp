@@ -24,11 +24,8 @@ ipc::Sharing sharingFor(const Graphics &graphics, const ipc::SessionCreated &gra
 
 ImageSharing agree(const Graphics &graphics, const ipc::SessionCreated &granted, UniqueFd &probe)
 {
-	ImageSharing sharing{sharingFor(graphics, granted, probe), {}};
-	for (const int32_t format : granted.formats)
-		if (format != 0 && std::ranges::find(graphics.formats(), int64_t(format)) != graphics.formats().end())
-			sharing.formats.push_back(format);
-	return sharing;
+	const auto behindLast = std::ranges::find(granted.formats, 0);
+	return {sharingFor(graphics, granted, probe), graphics.formatsOf({granted.formats.begin(), behindLast})};
 }
 
 } // namespace arift::openxr

@@ -7,7 +7,7 @@ namespace arift::openxr
 
 struct ImageSharing {
 	ipc::Sharing how = ipc::Sharing::memory;
-	std::vector<int64_t> formats; ///< VkFormats, the runtime's favourite first
+	std::vector<int64_t> formats; ///< as the application's API numbers them, the runtime's favourite first
 };
 
 /// `probe`: the descriptor that came with the answer, or none.

@@ -1,5 +1,6 @@
 #include "runtime/openxr/session.h"
 #include "runtime/openxr/ext/khr_vulkan_enable.h"
+#include "runtime/openxr/opengl/gl_graphics.h"
 
 namespace arift::openxr
 {
@@ -107,16 +108,27 @@ void Session::drainSubmissions()
 	if (submitter_) submitter_->drain(second);
 }
 
+namespace
+{
+
+/// For the binding in the chain; null where there is none, which a headless session does without.
+std::unique_ptr<Graphics> graphicsFor(Instance &instance, const XrSessionCreateInfo &info)
+{
+	if (instance.options.extensions.hasAnyOf({Extension::KHR_vulkan_enable, Extension::KHR_vulkan_enable2}))
+		if (const auto *binding = findInChain<XrGraphicsBindingVulkanKHR>(info.next)) return makeVulkanGraphics(instance, *binding);
+	std::unique_ptr<Graphics> graphics = makeGlGraphics(instance, info.next);
+	if (!graphics && !instance.has(Extension::MND_headless))
+		throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "no graphics binding of an enabled extension is in the chain of XrSessionCreateInfo");
+	return graphics;
+}
+
+} // namespace
+
 void createSession(Instance &instance, const XrSessionCreateInfo &info, XrSession &session)
 {
 	if (info.createFlags != 0) throw Error(XR_ERROR_VALIDATION_FAILURE, "createFlags is {:#x}, not 0", info.createFlags);
 	instance.requireSystem(info.systemId);
-	const bool vulkan = instance.options.extensions.hasAnyOf({Extension::KHR_vulkan_enable, Extension::KHR_vulkan_enable2});
-	const auto *binding = vulkan ? findInChain<XrGraphicsBindingVulkanKHR>(info.next) : nullptr;
-	if (!binding && !instance.has(Extension::MND_headless))
-		throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "no graphics binding of an enabled extension is in the chain of XrSessionCreateInfo");
-	std::unique_ptr<Graphics> graphics;
-	if (binding) graphics = makeVulkanGraphics(instance, *binding);
+	std::unique_ptr<Graphics> graphics = graphicsFor(instance, info);
 	if (instance.hasSession.exchange(true)) throw Error(XR_ERROR_LIMIT_REACHED, "the instance has a session already");
 	try {
 		auto made = std::make_unique<Session>(instance, std::move(graphics));

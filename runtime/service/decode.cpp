@@ -126,6 +126,7 @@ ipc::Submission decodeSubmission(const ipc::Received &received, const FindSwapch
 	std::memcpy(static_cast<void *>(submission.layers.data()), received.bytes.data() + fixed, submission.layerCount * sizeof(ipc::Layer));
 	require(submission.blendMode >= XR_ENVIRONMENT_BLEND_MODE_OPAQUE && submission.blendMode <= XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND,
 			"submission with an unknown blend mode");
+	require(submission.rowsGoUp <= 1, "submission of images whose rows go neither up nor down");
 	for (uint32_t i = 0; i < submission.layerCount; ++i) checkLayer(submission.layers[i], find);
 	return submission;
 }

@@ -20,7 +20,7 @@ public:
 	explicit FakeGraphics(const FakeDevice &device) : device_(device) {}
 	std::array<uint8_t, 16> deviceUuid() const override { return {}; }
 	std::array<uint8_t, 16> driverUuid() const override { return {}; }
-	const std::vector<int64_t> &formats() const override { return formats_; }
+	std::vector<int64_t> formatsOf(std::span<const int32_t>) const override { return {VK_FORMAT_R8G8B8A8_SRGB}; }
 	gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info, ipc::Sharing) const override
 	{
 		return {.format = int32_t(info.format), .width = info.width, .height = info.height};
@@ -54,7 +54,6 @@ private:
 	};
 
 	const FakeDevice &device_;
-	const std::vector<int64_t> formats_{VK_FORMAT_R8G8B8A8_SRGB};
 };
 
 /// Handles as the application has them, objects as the library has them.

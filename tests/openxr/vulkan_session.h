@@ -1,64 +1,22 @@
-// A session that draws, with a service that hands out real images or memory to copy them into, and the validation layer listening.
+// A session that draws with Vulkan, the validation layer listening.
 #pragma once
-#include "runtime/gpu/device.h"
-#include "tests/openxr/fake_service.h"
+#include "tests/openxr/image_service.h"
 #include "tests/openxr/vulkan_application.h"
-#include <algorithm>
 #include <optional>
 
 namespace arift
 {
 
-inline ipc::Welcome welcomeOf(const gpu::Device &device)
-{
-	ipc::Welcome welcome = FakeService::usualWelcome();
-	welcome.deviceUuid = device.identity().deviceUuid;
-	welcome.driverUuid = device.identity().driverUuid;
-	welcome.deviceType = device.identity().deviceType;
-	return welcome;
-}
-
-struct VulkanSession : testing::Test {
-	/// `sharing`: what the service grants. `probe`: changes what it says of its probe.
+struct VulkanSession : testing::Test, ImageService {
+	/// As ImageService.
 	explicit VulkanSession(ipc::Sharing sharing = ipc::Sharing::memory, std::function<void(ipc::SessionCreated &)> probe = {})
+		: ImageService(sharing, std::move(probe)), session(application.session(&vulkan->binding))
 	{
-		service.setGrant([this, sharing, probe = std::move(probe)](ipc::SessionCreated &created) {
-			created.sharing = sharing;
-			const std::vector<int64_t> formats = gpu::swapchainFormats(device);
-			std::ranges::copy(formats, created.formats.begin());
-			if (!probe) return UniqueFd();
-			gpu::MemoryProbe made = gpu::makeMemoryProbe(device);
-			created.probeSize = made.size;
-			created.probeTypeIndex = made.typeIndex;
-			created.probePattern = made.pattern;
-			probe(created);
-			return std::move(made.memory);
-		});
-		session = application.session(&vulkan->binding);
 	}
 
-	gpu::Device device;
-	std::vector<gpu::SharedImage> images;
-	std::vector<UniqueFd> copies; ///< memory of images that are copied, in the order in which they were asked for
-	FakeService service{welcomeOf(device), [this](const ipc::CreateSwapchain &create, ipc::SwapchainCreated &created) {
-							std::vector<UniqueFd> fds;
-							for (uint32_t i = 0; i < create.imageCount; ++i) {
-								if (create.sharing == ipc::Sharing::copies) {
-									created.memorySize = gpu::copyLayoutOf(create.spec).size;
-									const UniqueFd &memory = copies.emplace_back(ipc::makeSharedMemory("test", created.memorySize));
-									fds.emplace_back(::dup(memory.get()));
-									continue;
-								}
-								const gpu::SharedImage &image = images.emplace_back(device, create.spec);
-								created.memorySize = image.memorySize();
-								created.memoryTypeIndex = image.memoryTypeIndex();
-								fds.push_back(image.exportMemory());
-							}
-							return fds;
-						}};
 	std::optional<VulkanApplication> vulkan{std::in_place};
 	Application &application = vulkan->application;
-	XrSession session = XR_NULL_HANDLE;
+	XrSession session;
 
 	template <typename Pfn> Pfn get(const char *name) const { return application.get<Pfn>(name); }
 

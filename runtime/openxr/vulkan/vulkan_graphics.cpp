@@ -10,7 +10,7 @@ namespace arift::openxr
 namespace
 {
 
-std::vector<int64_t> formatsOf(const VulkanInstanceApi &vulkan, VkPhysicalDevice device)
+std::vector<int64_t> drawableFormats(const VulkanInstanceApi &vulkan, VkPhysicalDevice device)
 {
 	if (!vulkan.GetPhysicalDeviceImageFormatProperties2)
 		throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "the VkInstance was made without the extensions that sharing images needs");
@@ -137,7 +137,7 @@ VulkanGraphics::VulkanGraphics(const VulkanInstanceApi &instanceApi, const XrGra
 	: instanceApi_(instanceApi),
 	  physicalDevice_(requireBinding(binding).physicalDevice),
 	  id_(identify(instanceApi_, physicalDevice_)),
-	  formats_(formatsOf(instanceApi_, physicalDevice_)),
+	  formats_(drawableFormats(instanceApi_, physicalDevice_)),
 	  device_(instanceApi_, binding)
 {
 }
@@ -158,6 +158,14 @@ bool VulkanGraphics::sees(const MemoryProbe &probe) const
 	if (isMapped) vulkan.UnmapMemory(device_.device, memory);
 	vulkan.FreeMemory(device_.device, memory, nullptr);
 	return isSame;
+}
+
+std::vector<int64_t> VulkanGraphics::formatsOf(std::span<const int32_t> vulkan) const
+{
+	std::vector<int64_t> drawable;
+	std::ranges::copy_if(vulkan, std::back_inserter(drawable),
+						 [&](int32_t format) { return std::ranges::find(formats_, format) != formats_.end(); });
+	return drawable;
 }
 
 gpu::ImageSpec VulkanGraphics::specOf(const XrSwapchainCreateInfo &info, ipc::Sharing sharing) const

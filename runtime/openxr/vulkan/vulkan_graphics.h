@@ -57,7 +57,7 @@ public:
 	VulkanGraphics(const VulkanInstanceApi &instanceApi, const XrGraphicsBindingVulkanKHR &binding);
 	std::array<uint8_t, 16> deviceUuid() const override { return id_.deviceUuid; }
 	std::array<uint8_t, 16> driverUuid() const override { return id_.driverUuid; }
-	const std::vector<int64_t> &formats() const override { return formats_; }
+	std::vector<int64_t> formatsOf(std::span<const int32_t> vulkan) const override;
 	bool sees(const MemoryProbe &probe) const override;
 	gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info, ipc::Sharing sharing) const override;
 	std::unique_ptr<SwapchainImages> import(const gpu::ImageSpec &spec, const SharedMemory &memory) override;

@@ -2,6 +2,7 @@
 // nothing.
 #include "tests/e2e/applications/layer_messages.h"
 #include "tests/e2e/common/private_service.h"
+#include "tests/e2e/common/x_server.h"
 #include <algorithm>
 #include <cmath>
 #include <fcntl.h>
@@ -60,7 +61,7 @@ int difference(const Pixel &a, const Pixel &b)
 class Application
 {
 public:
-	Application(const PrivateService &service, std::string name, const std::string &commandLine)
+	Application(const PrivateService &service, std::string name, const std::string &commandLine, const std::string &display = {})
 		: name_(std::move(name)),
 		  coreValidation_(service.tree().root() / (name_ + "-core-validation.txt")),
 		  keyboard_(service.tree().root() / (name_ + "-keyboard"))
@@ -68,6 +69,7 @@ public:
 		if (::mkfifo(keyboard_.c_str(), 0600) != 0) throw std::runtime_error("no pipe can be made: " + keyboard_.string());
 		keys_ = ::open(keyboard_.c_str(), O_RDWR | O_CLOEXEC);
 		auto environment = service.tree().environment();
+		if (!display.empty()) environment["DISPLAY"] = display;
 		environment["XR_ENABLE_API_LAYERS"] = "XR_APILAYER_LUNARG_core_validation";
 		environment["XR_CORE_VALIDATION_FILE_NAME"] = coreValidation_.string();
 		environment["VK_INSTANCE_LAYERS"] = "VK_LAYER_KHRONOS_validation";
@@ -177,13 +179,13 @@ protected:
 		return double(count) / (double(now.width) * now.height);
 	}
 
-	void runHelloXr(const std::string &graphics, const std::string &blendMode)
+	void runHelloXr(const std::string &graphics, const std::string &blendMode, const std::string &display = {})
 	{
 #ifdef ARIFT_SANITIZED
 		GTEST_SKIP() << "a program of somebody else cannot load a library built with sanitizers";
 #endif
 		if (::access("/usr/bin/hello_xr", X_OK) != 0) GTEST_SKIP() << "hello_xr is not installed (package libopenxr-utils)";
-		Application hello(*service_, "hello_xr", "/usr/bin/hello_xr -g " + graphics + " -bm " + blendMode);
+		Application hello(*service_, "hello_xr", "/usr/bin/hello_xr -g " + graphics + " -bm " + blendMode, display);
 		awaitFrames(hello, "HelloXR");
 		if (HasFatalFailure()) return;
 		const PanelPicture now = service_->screenshot();
@@ -199,6 +201,15 @@ protected:
 		expectSilence(hello);
 	}
 
+	/// It opens a window through GLX, with an extension that Xvfb has not.
+	void runHelloXrOpenGl(const std::string &blendMode)
+	{
+		if (!XServer::isThere(XServer::Kind::dummyDriver))
+			GTEST_SKIP() << "no Xorg may be started (package xserver-xorg-video-dummy, root)";
+		const XServer server(service_->tree(), XServer::Kind::dummyDriver);
+		runHelloXr("OpenGL", blendMode, server.display());
+	}
+
 	std::optional<PrivateService> service_;
 	PanelPicture before_;
 	std::optional<XrTime> firstPicture_;
@@ -208,6 +219,8 @@ TEST_F(Applications, HelloXrVulkanOpaque) { runHelloXr("Vulkan", "Opaque"); }
 TEST_F(Applications, HelloXrVulkanAlphaBlend) { runHelloXr("Vulkan", "AlphaBlend"); }
 TEST_F(Applications, HelloXrVulkan2Opaque) { runHelloXr("Vulkan2", "Opaque"); }
 TEST_F(Applications, HelloXrVulkan2AlphaBlend) { runHelloXr("Vulkan2", "AlphaBlend"); }
+TEST_F(Applications, HelloXrOpenGLOpaque) { runHelloXrOpenGl("Opaque"); }
+TEST_F(Applications, HelloXrOpenGLAlphaBlend) { runHelloXrOpenGl("AlphaBlend"); }
 
 TEST_F(Applications, HologramCubeStandsInTheWorld)
 {

@@ -31,7 +31,7 @@ class WindowFaults : public testing::Test
 protected:
 	void SetUp() override
 	{
-		if (!XServer::isInstalled()) GTEST_SKIP() << "there is no Xvfb (package xvfb)";
+		if (!XServer::isThere()) GTEST_SKIP() << "there is no Xvfb (package xvfb)";
 		server_.emplace(tree_);
 		auto environment = tree_.environment();
 		environment["DISPLAY"] = server_->display();
