@@ -8,7 +8,7 @@ layout(constant_id = 1) const int cameraCoefficients = 16;   // 0: the table
 layout(constant_id = 2) const bool tangentialDistortion = false;
 layout(constant_id = 3) const int background = 0;
 layout(constant_id = 4) const bool encoded = false;          // camera values are sRGB encoded
-layout(constant_id = 5) const bool hasLayer = false;
+layout(constant_id = 5) const int layerCover = 0;            // Cover (compositor/tiles.h)
 layout(constant_id = 6) const bool throughLens = true;       // false: the eye's image before the lens correction
 layout(constant_id = 7) const bool redItself = false;        // red is evaluated, not derived from green and blue
 layout(constant_id = 8) const bool layerEncoded = false;     // the layer's texels are sRGB encoded
@@ -32,6 +32,7 @@ ARIFT_NUMBER(57, affineYy) ARIFT_NUMBER(58, p1) ARIFT_NUMBER(59, p2) ARIFT_NUMBE
 ARIFT_NUMBER(61, tableScale) ARIFT_NUMBER(62, leastCosine) ARIFT_NUMBER(63, cosineFade) ARIFT_NUMBER(64, texelFade)
 ARIFT_NUMBER(65, imageWidth) ARIFT_NUMBER(66, imageHeight)
 
+const int coverNone = 0, coverPartly = 1, coverFully = 2, coverOpaque = 3;
 const int backgroundNone = 0, backgroundPattern = 1, backgroundCamera = 2, backgroundUnseen = 3;
 
 layout(set = 0, binding = 1) uniform sampler2D sites;        // CameraImages: each texel the four neighbours that a place lies between
@@ -42,12 +43,11 @@ layout(location = 0) noperspective in vec2 lensVector;       // tangents before 
 layout(location = 1) noperspective in mat3 cameraMatrix;     // at this line: EyeBlock, LayerBlock
 layout(location = 4) noperspective in mat3 layerMatrix;
 layout(location = 7) flat in vec4 siteOffset[2];
-layout(location = 9) flat in vec4 siteTexture;
-layout(location = 10) flat in vec4 siteScale;
-layout(location = 11) flat in vec4 colourRange;
-layout(location = 12) flat in vec4 fillColour;
-layout(location = 13) flat in vec4 layerBounds;
-layout(location = 14) flat in vec4 layerMode;
+layout(location = 9) flat in vec4 siteScale;
+layout(location = 10) flat in vec4 colourRange;
+layout(location = 11) flat in vec4 fillColour;
+layout(location = 12) flat in vec4 layerBounds;
+layout(location = 13) flat in vec4 layerMode;
 
 layout(location = 0, index = 0) out vec4 light;
 layout(location = 0, index = 1) out vec4 cover;              // for blending over what is there already
@@ -120,19 +120,20 @@ float seen(vec2 texel, float cosine)
 	return fade * fade * (3.0 - 2.0 * fade) * siteScale.y;
 }
 
-/// One colour at a texel: between the four sites of its lattice around it. Beyond the image's edge, where nothing is seen, whatever it is.
-float siteColour(vec2 texel, vec2 offset, float row)
-{
-	const vec2 at = texel * siteScale.x + offset, base = floor(at), part = at - base;
-	const vec4 four = textureLod(sites, base * siteTexture.xy + vec2(siteTexture.z, row), 0.0);
-	const vec2 across = four.xz + (four.yw - four.xz) * part.x;
-	return across.x + (across.y - across.x) * part.y;
-}
-
+/// Every colour at its texel: between the four pixels of its lattice around it, which are one site. Beyond the image's edge, where nothing
+/// is seen, whatever it is. All places first, then all fetches: they are on their way together.
 vec3 rawColour(vec2 red, vec2 green, vec2 blue)
 {
-	return vec3(siteColour(red, siteOffset[0].xy, siteTexture.w), siteColour(green, siteOffset[0].zw, siteScale.z),
-		siteColour(blue, siteOffset[1].xy, siteScale.w));
+	const vec2 r = red * siteScale.x + siteOffset[0].xy, g = green * siteScale.x + siteOffset[0].zw, b = blue * siteScale.x + siteOffset[1].xy;
+	const vec2 rBase = floor(r), gBase = floor(g), bBase = floor(b);
+	const vec4 rFour = texelFetch(sites, ivec2(clamp(rBase, vec2(0.0), siteScale.zw)), 0);
+	const vec4 gFour = texelFetch(sites, ivec2(clamp(gBase, vec2(0.0), siteScale.zw)), 0);
+	const vec4 bFour = texelFetch(sites, ivec2(clamp(bBase, vec2(0.0), siteScale.zw)), 0);
+	const vec2 rPart = r - rBase, gPart = g - gBase, bPart = b - bBase;
+	const vec3 x = vec3(rPart.x, gPart.x, bPart.x), y = vec3(rPart.y, gPart.y, bPart.y);
+	const vec3 upper = vec3(rFour.x, gFour.x, bFour.x) + (vec3(rFour.y, gFour.y, bFour.y) - vec3(rFour.x, gFour.x, bFour.x)) * x;
+	const vec3 lower = vec3(rFour.z, gFour.z, bFour.z) + (vec3(rFour.w, gFour.w, bFour.w) - vec3(rFour.z, gFour.z, bFour.z)) * x;
+	return upper + (lower - upper) * y;
 }
 
 vec3 behindLayers(vec2 tangents, Chromatic chromatic, float r2)
@@ -161,17 +162,23 @@ vec3 behindLayers(vec2 tangents, Chromatic chromatic, float r2)
 /// Light and cover of one colour at a texel (integers at texel centres): between the four texels around it, after decoding them.
 vec2 layerTexel(vec2 texel, float w, int channel)
 {
-	const vec2 at = within(texel, layerBounds.xy, layerBounds.zw), base = floor(at), part = at - base;
+	const vec2 at = layerCover == coverPartly ? within(texel, layerBounds.xy, layerBounds.zw) : texel;
+	const vec2 base = floor(at), part = at - base;
 	// In the very middle of the four, so that no rounding chooses others.
 	const vec2 middle = (base + 1.0) * layerMode.xy;
 	vec4 value = channel == 0   ? textureGather(layerTexture, middle, 0)
 				 : channel == 1 ? textureGather(layerTexture, middle, 1)
 								: textureGather(layerTexture, middle, 2);
-	if (layerEncoded) value = decoded(value);
 	const vec4 alpha = textureGather(layerTexture, middle, 3);
+	if (layerEncoded) value = decoded(value);
+	if (layerCover == coverOpaque) {
+		const vec2 across = value.wx + (value.zy - value.wx) * part.x;
+		return vec2(across.x + (across.y - across.x) * part.y, 1.0);
+	}
 	const vec4 left = vec4(value.wx, alpha.wx), right = vec4(value.zy, alpha.zy);
 	const vec4 across = left + (right - left) * part.x;
 	const vec2 between = across.xz + (across.yw - across.xz) * part.y;
+	if (layerCover == coverFully) return between;
 	const vec2 off = abs(texel - at);
 	return w > 0.0 && max(off.x, off.y) <= 0.5 ? vec2(between.x, min(between.y + layerMode.z, 1.0)) : vec2(0.0);
 }
@@ -189,6 +196,10 @@ void layerLight(vec2 tangents, Chromatic chromatic, out vec3 colour, out vec3 al
 	}
 	const vec2 r = layerTexel(redTexel, green.z, 0), g = layerTexel(greenTexel, green.z, 1), b = layerTexel(blueTexel, green.z, 2);
 	alpha = vec3(r.y, g.y, b.y);
+	if (layerCover == coverOpaque) {
+		colour = vec3(r.x, g.x, b.x);
+		return;
+	}
 	// layerMode.w: how much of its alpha the colour has still to be multiplied by.
 	colour = vec3(r.x, g.x, b.x) * (1.0 + layerMode.w * (alpha - 1.0));
 }
@@ -207,10 +218,10 @@ void main()
 			redFromBlue0 + redFromBlue1 * r2Shown);
 	}
 	vec3 colour = behindLayers(tangents, chromatic, r2), alpha = vec3(0.0);
-	if (hasLayer) {
+	if (layerCover != coverNone) {
 		vec3 layerColour;
 		layerLight(tangents, chromatic, layerColour, alpha);
-		colour = colour * (1.0 - alpha * fillColour.w) + layerColour;
+		colour = layerCover == coverOpaque ? layerColour : colour * (1.0 - alpha * fillColour.w) + layerColour;
 	}
 	light = vec4(colour * shown, 1.0);
 	cover = vec4(alpha * shown, 1.0);

@@ -15,12 +15,11 @@ layout(location = 0) noperspective out vec2 lensVector;
 layout(location = 1) noperspective out mat3 cameraMatrix;
 layout(location = 4) noperspective out mat3 layerMatrix;
 layout(location = 7) flat out vec4 siteOffset[2];
-layout(location = 9) flat out vec4 siteTexture;
-layout(location = 10) flat out vec4 siteScale;
-layout(location = 11) flat out vec4 colourRange;
-layout(location = 12) flat out vec4 fillColour;
-layout(location = 13) flat out vec4 layerBounds;
-layout(location = 14) flat out vec4 layerMode;
+layout(location = 9) flat out vec4 siteScale;
+layout(location = 10) flat out vec4 colourRange;
+layout(location = 11) flat out vec4 fillColour;
+layout(location = 12) flat out vec4 layerBounds;
+layout(location = 13) flat out vec4 layerMode;
 
 mat3 atLine(MatrixByLine m, float s)
 {
@@ -36,7 +35,6 @@ void main()
 	cameraMatrix = atLine(eye.camera, s);
 	layerMatrix = atLine(layer.texel, s);
 	siteOffset = eye.siteOffset;
-	siteTexture = eye.siteTexture;
 	siteScale = eye.siteScale;
 	colourRange = eye.colour;
 	fillColour = eye.fill;

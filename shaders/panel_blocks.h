@@ -22,8 +22,7 @@ struct EyeBlock {
 	MatrixByLine camera; ///< (tangents, 1) -> direction in the camera's frame (x right, y down, z forward), any length; without a camera:
 						 ///< in the origin's
 	vec4 siteOffset[2];  ///< from texel to site, red in xy, green in zw; blue in xy: site = texel * siteScale.x + offset
-	vec4 siteTexture;    ///< xy: texture coordinate per site; z: of column 0's middle; w: of row 0's, for red
-	vec4 siteScale;      ///< x: sites per texel; y: weight of the camera's image against the fill; zw: as siteTexture.w, for green and blue
+	vec4 siteScale;      ///< x: sites per texel; y: weight of the camera's image against the fill; zw: the last site
 	vec4 colour;         ///< xyz: gain by channel; w: raw value of darkness
 	vec4 fill;           ///< xyz: linear light shown where no camera sees; w: how much of what is behind a layer its alpha hides
 };

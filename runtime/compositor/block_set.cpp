@@ -16,21 +16,25 @@ BlockSet::BlockSet(const PixelRect &area)
 	  columns_(blocksIn(area.width(), width)),
 	  rows_(blocksIn(area.height(), height)),
 	  filled_(size_t(columns_) * size_t(rows_)),
-	  firstRow_(rows_)
+	  firstRow_(rows_),
+	  firstColumn_(columns_)
 {
 }
 
 void BlockSet::add(const PixelRect &rect)
 {
 	const int begin = (rect.y0 - area_.y0) / height, end = blocksIn(rect.y1 - area_.y0, height);
+	const int first = (rect.x0 - area_.x0) / width, last = blocksIn(rect.x1 - area_.x0, width);
 	for (int row = begin; row < end; ++row)
-		for (int column = (rect.x0 - area_.x0) / width; column < blocksIn(rect.x1 - area_.x0, width); ++column) {
+		for (int column = first; column < last; ++column) {
 			uint8_t &block = filled_[size_t(row) * size_t(columns_) + size_t(column)];
 			count_ += 1 - block;
 			block = 1;
 		}
 	firstRow_ = std::min(firstRow_, begin);
 	endRow_ = std::max(endRow_, end);
+	firstColumn_ = std::min(firstColumn_, first);
+	endColumn_ = std::max(endColumn_, last);
 }
 
 /// Row by row: how many filled blocks end here in each column, and the largest rectangle under that skyline: every column is remembered
@@ -41,14 +45,14 @@ BlockSet::Blocks BlockSet::largest() const
 	std::vector<int> heights(size_t(columns_) + 1);
 	std::vector<int> rising;
 	for (int row = firstRow_; row < endRow_; ++row) {
-		for (int column = 0; column < columns_; ++column)
+		for (int column = firstColumn_; column < endColumn_; ++column)
 			heights[size_t(column)] = filled_[size_t(row) * size_t(columns_) + size_t(column)] ? heights[size_t(column)] + 1 : 0;
 		rising.clear();
-		for (int column = 0; column <= columns_; ++column) {
+		for (int column = firstColumn_; column <= endColumn_; ++column) {
 			while (!rising.empty() && heights[size_t(rising.back())] >= heights[size_t(column)]) {
 				const int risen = heights[size_t(rising.back())];
 				rising.pop_back();
-				const int first = rising.empty() ? 0 : rising.back() + 1;
+				const int first = rising.empty() ? firstColumn_ : rising.back() + 1;
 				const Blocks found{first, row + 1 - risen, column - first, risen};
 				if (found.count() > best.count()) best = found;
 			}

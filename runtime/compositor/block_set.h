@@ -19,7 +19,7 @@ class BlockSet
 {
 public:
 	/// Multiples of what a software renderer shades at once (4x4 pixels).
-	static constexpr int width = 16, height = 32;
+	static constexpr int width = 16, height = 16;
 	explicit BlockSet(const PixelRect &area);
 
 	/// `rect` begins and ends at blocks' edges or the area's.
@@ -37,8 +37,8 @@ private:
 
 	PixelRect area_;
 	int columns_, rows_;
-	std::vector<uint8_t> filled_; ///< row by row
-	int firstRow_, endRow_ = 0;   ///< all rows with filled blocks lie between
+	std::vector<uint8_t> filled_;                             ///< row by row
+	int firstRow_, endRow_ = 0, firstColumn_, endColumn_ = 0; ///< all filled blocks lie between
 	int count_ = 0;
 };
 

@@ -28,18 +28,14 @@ shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band)
 void describeSites(shaders::EyeBlock &block, const CameraFrame &frame)
 {
 	const SiteImage image = siteImageOf(frame);
-	const glm::vec2 perSite(1 / float(image.width), 1 / float(image.height * image.planes));
-	const auto firstRow = [&](uint32_t plane) { return (float(plane * image.height) + 0.5f) * perSite.y; };
-	block.siteTexture = {perSite.x, perSite.y, perSite.x / 2, firstRow(0)};
-	if (image.planes == 1) {
-		block.siteScale = {1, 0, firstRow(0), firstRow(0)};
-		return;
-	}
+	const float plane = float(image.height);
+	block.siteScale = {1, 0, float(image.width) - 1, plane * float(image.planes) - 1};
+	if (image.planes == 1) return;
+	block.siteScale.x = 0.5f;
 	// The middle of both greens is the middle of the cell.
 	const auto [redX, redY] = redOf(frame.format);
-	block.siteOffset[0] = {-float(redX) / 2, -float(redY) / 2, -0.25f, -0.25f};
-	block.siteOffset[1] = {-float(1 - redX) / 2, -float(1 - redY) / 2, 0, 0};
-	block.siteScale = {0.5f, 0, firstRow(1), firstRow(2)};
+	block.siteOffset[0] = {-float(redX) / 2, -float(redY) / 2, -0.25f, plane - 0.25f};
+	block.siteOffset[1] = {-float(1 - redX) / 2, 2 * plane - float(1 - redY) / 2, 0, 0};
 }
 
 void describeCamera(shaders::EyeBlock &block, const CameraView &view)

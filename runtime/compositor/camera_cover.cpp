@@ -39,7 +39,7 @@ std::optional<glm::dvec2> texelOf(const PanelCamera &camera, const glm::dvec3 &d
 	const ShaderCamera &form = camera.form;
 	const double length = glm::length(direction), cosine = direction.z / length;
 	if (!(cosine >= double(form.cosineLimit) - 1e-9)) return std::nullopt;
-	glm::dvec2 m = glm::dvec2(direction) / length * gainAt(camera, std::acos(std::min(cosine, 1.0)));
+	glm::dvec2 m = glm::dvec2(direction) / length * gainAt(camera, cosine);
 	if (const double p1 = form.tangential[0], p2 = form.tangential[1]; p1 != 0 || p2 != 0) {
 		const glm::dvec2 t = glm::dvec2(direction) / std::max(direction.z + double(form.xi) * length, 1e-6);
 		const double r2 = glm::dot(t, t), both = 2 * t.x * t.y;

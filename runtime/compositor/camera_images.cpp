@@ -1,4 +1,5 @@
 #include "runtime/compositor/camera_images.h"
+#include <algorithm>
 #include <cstring>
 
 namespace arift
@@ -56,15 +57,13 @@ void copy(const vk::raii::CommandBuffer &commands, vk::Buffer buffer, const Text
 	endCopy(commands, *texture.image.image);
 }
 
-Texture darkTexel(gpu::Device::Handles &gpu)
+void darken(gpu::Device::Handles &gpu, const Texture &texture)
 {
-	Texture texture(gpu, vk::Format::eR8G8B8A8Unorm, 1, 1);
 	gpu.runOnce([&](const auto &commands) {
 		beginCopy(commands, *texture.image.image);
 		commands.clearColorImage(*texture.image.image, Layout::eTransferDstOptimal, vk::ClearColorValue{}, whole);
 		endCopy(commands, *texture.image.image);
 	});
-	return texture;
 }
 
 } // namespace
@@ -77,7 +76,16 @@ Texture::Texture(const gpu::Device::Handles &gpu, vk::Format format, uint32_t w,
 {
 }
 
-CameraImages::CameraImages(gpu::Device::Handles &gpu) : gpu_(gpu), nothing_(darkTexel(gpu)) {}
+CameraImages::CameraImages(gpu::Device::Handles &gpu, const PanelOptics &optics)
+	: gpu_(gpu), nothing_(gpu, vk::Format::eR8G8B8A8Unorm, 1, 1)
+{
+	darken(gpu_, nothing_);
+	for (size_t eye = 0; eye < std::min(eyes_.size(), optics.cameras.size()); ++eye) {
+		const PanelCamera &camera = optics.cameras[eye];
+		makeTexture(eyes_[eye], siteImageOf({.format = PixelFormat::bayerRggb8, .width = camera.width, .height = camera.height}));
+		darken(gpu_, *eyes_[eye].sites);
+	}
+}
 
 void CameraImages::makeTexture(Eye &eye, const SiteImage &layout)
 {

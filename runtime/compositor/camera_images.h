@@ -19,7 +19,8 @@ struct Texture {
 class CameraImages
 {
 public:
-	explicit CameraImages(gpu::Device::Handles &gpu);
+	/// With a dark image of the usual form for every camera of the Rig.
+	CameraImages(gpu::Device::Handles &gpu, const PanelOptics &optics);
 
 	/// Packs an image that is not the one this eye has already and records its copy; says whether the eye's texture is another than before.
 	/// The frame is not needed any more afterwards.

@@ -86,18 +86,9 @@ void Compositor::Loop::publishTiming(const Pacer::Refresh &refresh)
 	if (rate_ == 0) surroundings_.page.clock.write({anchor.realAnchor, anchor.xrAnchor, anchor.rate});
 }
 
-Pacer::Refresh Compositor::Loop::after(const Pacer::Refresh &refresh) const
-{
-	Pacer::Refresh next = pacer_.following(refresh);
-	// When composing has become cheaper than was thought, the refresh just served could be reached again.
-	if (const XrDuration period = pacer_.period(); next.display - refresh.display < period / 2)
-		next = {next.latch + period, next.vblank + period, next.display + period};
-	return next;
-}
-
 void Compositor::Loop::wake(const Sources &sources, const Pacer::Refresh &refresh)
 {
-	const Pacer::Refresh following = after(refresh);
+	const Pacer::Refresh following = pacer_.following(refresh);
 	for (const auto &source : sources) source->wake({following.display, pacer_.period(), following.latch});
 }
 
@@ -215,7 +206,7 @@ void Compositor::Loop::run(std::stop_token stop)
 		if (surroundings_.threadBegins) surroundings_.threadBegins();
 		// On a machine that is always late no sleep is long enough to be ended by the stop request: it is asked for as well.
 		for (Pacer::Refresh refresh = pacer_.next(clock.now()); clock.sleepUntil(refresh.latch, stop) && !stop.stop_requested();
-			 refresh = after(refresh)) {
+			 refresh = pacer_.after(refresh.display, clock.now())) {
 			// Later than the margin allows for, the refresh planned cannot be reached any more: the next one can.
 			if (const XrTime now = clock.now(); now - refresh.latch > latest) refresh = pacer_.next(now);
 			if (!frame(refresh)) {

@@ -67,8 +67,6 @@ private:
 	std::vector<ImageChange> take(Frame &frame);
 	void latchLayers(Frame &frame, Latched &latched) const;
 	void publishTiming(const Pacer::Refresh &refresh);
-	/// The refresh to compose for once the work for `refresh` is done.
-	Pacer::Refresh after(const Pacer::Refresh &refresh) const;
 	void wake(const Sources &sources, const Pacer::Refresh &refresh);
 	void choose(const Pacer::Refresh &refresh, Frame &frame);
 	void show(const Pacer::Refresh &refresh, Frame &frame);

@@ -17,13 +17,13 @@ bool lies(const LayerTexture &texture, const gpu::ImageSpec &spec)
 		   texture.arrayIndex < spec.arrayLayers;
 }
 
-/// A texel's light reaches into its neighbours.
-HasContent contentOf(const LayerTexture &texture, Occupancy *occupancy)
+/// A texel's light reaches into its neighbours. `wholly`: the layer hides what is behind it, whatever its image holds.
+ContentOf contentOf(const LayerTexture &texture, Occupancy *occupancy, bool wholly)
 {
-	if (!occupancy) return {};
+	if (wholly || !occupancy) return [content = wholly ? Content::opaque : Content::some](auto, auto) { return content; };
 	return [rect = texture.rect, occupancy](glm::dvec2 least, glm::dvec2 most) {
 		const auto within = [](double place, int32_t offset, int32_t extent) { return offset + int(std::clamp(place, 0.0, 1.0) * extent); };
-		return occupancy->mayHaveContent(
+		return occupancy->contentOf(
 			{within(least.x, rect.offset.x, rect.extent.width) - 1, within(least.y, rect.offset.y, rect.extent.height) - 1,
 			 within(most.x, rect.offset.x, rect.extent.width) + 2, within(most.y, rect.offset.y, rect.extent.height) + 2});
 	};
@@ -34,6 +34,12 @@ PipelineKey backdropOf(const CameraView *camera, bool throughLens)
 {
 	if (!camera) return {.background = Background::pattern, .throughLens = throughLens};
 	return {.background = Background::camera, .camera = camera->lens, .encoded = !camera->linear, .throughLens = throughLens};
+}
+
+void addRect(Drawing &drawing, const PixelRect &rect)
+{
+	const auto x0 = int16_t(rect.x0), y0 = int16_t(rect.y0), x1 = int16_t(rect.x1), y1 = int16_t(rect.y1);
+	drawing.vertices.insert(drawing.vertices.end(), {{x0, y0}, {x1, y0}, {x0, y1}, {x0, y1}, {x1, y0}, {x1, y1}});
 }
 
 class EyeDrawing
@@ -52,12 +58,12 @@ public:
 		std::vector<bool> seen;
 		if (camera) seen = seenTiles(draw_.grid, matrices, draw_.optics.cameras[camera->lens]);
 		const size_t count = std::min(draw_.inputs.layers.size(), maxDrawnLayers);
-		planned_.resize(count);
+		covers_.resize(count);
 		blocks_.resize(count);
 		encoded_.resize(count);
 		for (size_t i = 0; i < count; ++i) addLayer(i);
 		const PipelineKey backdrop = backdropOf(camera, draw_.geometry.throughLens);
-		for (const TileDraw &tiles : planDraws(draw_.grid, draw_.inputs.blendMode, planned_, seen)) addItem(tiles, backdrop, firstEyeBlock);
+		for (const TileDraw &tiles : planDraws(draw_.grid, draw_.inputs.blendMode, covers_, seen)) addItem(tiles, backdrop, firstEyeBlock);
 	}
 
 private:
@@ -80,8 +86,9 @@ private:
 		const LayerTexture &texture = textureOf(layer, draw_.eye);
 		const auto image = findImage_(texture);
 		if (!image || !lies(texture, *image->spec)) return;
-		const bool opaque = isOpaque(layer);
-		planned_[index] = {coverage(draw_.grid, *matrices, opaque ? HasContent{} : contentOf(texture, image->occupancy)), opaque};
+		// Half a texel within the edge, what lies beyond it would be mixed in.
+		const glm::dvec2 border(0.5 / texture.rect.extent.width, 0.5 / texture.rect.extent.height);
+		covers_[index] = coverage(draw_.grid, *matrices, border, contentOf(texture, image->occupancy, isOpaque(layer)));
 		encoded_[index] = gpu::storedFormat(VkFormat(image->spec->format)) != VkFormat(image->spec->format);
 		blocks_[index] = uint32_t(drawing_.layerBlocks.size());
 		for (uint32_t band = 0; band < bandCount; ++band)
@@ -94,7 +101,9 @@ private:
 		if (tiles.behind == Behind::camera) item.pipeline = backdrop;
 		if (tiles.behind == Behind::unseen) item.pipeline.background = Background::unseen;
 		item.pipeline.blend = tiles.blend;
-		item.pipeline.layer = tiles.layer >= 0;
+		// What is behind an opaque layer is drawn with it only where light is added to it: too seldom for a pipeline.
+		const bool alone = item.pipeline.background == Background::none;
+		item.pipeline.layer = tiles.cover == Cover::opaque && !alone ? Cover::fully : tiles.cover;
 		item.eyeBlock = firstEyeBlock + tiles.band;
 		if (tiles.layer >= 0) {
 			item.layerBlock = blocks_[size_t(tiles.layer)] + tiles.band;
@@ -104,10 +113,7 @@ private:
 			item.pipeline.layerEncoded = encoded_[size_t(tiles.layer)];
 		}
 		item.firstVertex = uint32_t(drawing_.vertices.size());
-		for (const PixelRect &rect : tiles.rects) {
-			const auto x0 = int16_t(rect.x0), y0 = int16_t(rect.y0), x1 = int16_t(rect.x1), y1 = int16_t(rect.y1);
-			drawing_.vertices.insert(drawing_.vertices.end(), {{x0, y0}, {x1, y0}, {x0, y1}, {x0, y1}, {x1, y0}, {x1, y1}});
-		}
+		for (const PixelRect &rect : tiles.rects) addRect(drawing_, rect);
 		item.vertexCount = uint32_t(drawing_.vertices.size()) - item.firstVertex;
 		drawing_.items.push_back(item);
 	}
@@ -116,9 +122,9 @@ private:
 	const EyeDraw &draw_;
 	const FindImage &findImage_;
 	std::array<std::array<EyeAtLine, 2>, bandCount + 1> eyes_;
-	std::vector<PlannedLayer> planned_;
-	std::vector<uint32_t> blocks_; ///< by layer: its first block
-	std::vector<bool> encoded_;    ///< by layer: its texels are sRGB encoded
+	std::vector<std::vector<Cover>> covers_; ///< by layer
+	std::vector<uint32_t> blocks_;           ///< by layer: its first block
+	std::vector<bool> encoded_;              ///< by layer: its texels are sRGB encoded
 };
 
 } // namespace
@@ -130,6 +136,21 @@ Drawing makeDrawing(const PanelInputs &inputs, const PanelOptics &optics, const 
 	for (size_t eye = 0; eye < 2; ++eye) {
 		const EyeDraw draw{inputs, optics, geometry, grids[eye], eye};
 		EyeDrawing(drawing, draw, findImage).make();
+	}
+	return drawing;
+}
+
+Drawing warmUpDrawing(std::span<const PipelineKey> pipelines, std::span<const uint64_t> images, const PixelRect &pixels)
+{
+	Drawing drawing{.eyeBlocks = std::vector<shaders::EyeBlock>(1), .layerBlocks = std::vector<shaders::LayerBlock>(1)};
+	addRect(drawing, pixels);
+	DrawItem item{.vertexCount = uint32_t(drawing.vertices.size())};
+	for (const PipelineKey &key : pipelines) {
+		item.pipeline = key;
+		for (const uint64_t image : key.layer == Cover::none ? images.first(1) : images) {
+			item.image = image;
+			drawing.items.push_back(item);
+		}
 	}
 	return drawing;
 }

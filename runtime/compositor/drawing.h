@@ -1,7 +1,6 @@
 // The whole drawing of one image as data: what is drawn where, with which pipeline and which numbers. Pure.
 #pragma once
 #include "runtime/compositor/blocks.h"
-#include "runtime/compositor/occupancy.h"
 #include "runtime/compositor/pipelines.h"
 
 namespace arift
@@ -35,5 +34,8 @@ using FindImage = std::function<std::optional<KnownImage>(const LayerTexture &)>
 /// Layers whose image or rectangle is not there are left out, and tiles where a layer has no content.
 Drawing makeDrawing(const PanelInputs &inputs, const PanelOptics &optics, const ViewGeometry &geometry,
 					const std::array<TileGrid, 2> &grids, const FindImage &findImage);
+/// Draws a few pixels with every pipeline, those of layers with every image, so that nothing is left for a driver to do at a pipeline's
+/// first draw.
+Drawing warmUpDrawing(std::span<const PipelineKey> pipelines, std::span<const uint64_t> images, const PixelRect &pixels);
 
 } // namespace arift

@@ -25,13 +25,24 @@ vk::raii::ImageView viewOf(const gpu::Device::Handles &gpu, VkImage image, const
 	return {gpu.device, {{}, image, vk::ImageViewType::e2D, format, {}, {vk::ImageAspectFlagBits::eColor, 0, 1, layer, 1}}};
 }
 
+bool hasAlphaLast(VkFormat format)
+{
+	const VkFormat stored = gpu::storedFormat(format);
+	return stored == VK_FORMAT_R8G8B8A8_UNORM || stored == VK_FORMAT_B8G8R8A8_UNORM;
+}
+
 std::vector<Occupancy> occupancyOf(const gpu::ImageSpec &spec, const gpu::ImageRows &rows)
 {
 	std::vector<Occupancy> occupancy;
 	const size_t texel = gpu::bytesPerTexel(VkFormat(spec.format));
 	if (rows.first && texel > 0)
 		for (uint32_t layer = 0; layer < spec.arrayLayers; ++layer)
-			occupancy.emplace_back(rows.first + layer * rows.layerPitch, rows.rowPitch, texel, spec.width, spec.height);
+			occupancy.emplace_back(Occupancy::Texels{.first = rows.first + layer * rows.layerPitch,
+													 .rowPitch = rows.rowPitch,
+													 .bytesPerTexel = texel,
+													 .alphaLast = hasAlphaLast(VkFormat(spec.format)),
+													 .width = spec.width,
+													 .height = spec.height});
 	return occupancy;
 }
 

@@ -27,12 +27,20 @@ Pacer::Pacer(Settings settings, XrTime anyDisplayTime)
 
 Pacer::Refresh Pacer::next(XrTime now) const
 {
-	const XrDuration lead = settings_.vblankToDisplay + settings_.margin + cost_;
-	const double earliest = double(now + lead - origin_) - phase_;
+	const double earliest = double(now + lead() - origin_) - phase_;
 	// A nanosecond of rounding must not cost a refresh.
 	const double display = phase_ + std::ceil(earliest / period_ - 1e-6) * period_;
 	const XrTime time = origin_ + XrTime(std::llround(display));
-	return {.latch = std::max(now, time - lead), .vblank = time - settings_.vblankToDisplay, .display = time};
+	return {.latch = isSlow() ? now : std::max(now, time - lead()), .vblank = time - settings_.vblankToDisplay, .display = time};
+}
+
+Pacer::Refresh Pacer::after(XrTime display, XrTime done) const
+{
+	const Refresh refresh = next(done);
+	if (refresh.display - display >= period() / 2) return refresh;
+	// Composing was cheaper than expected: the refresh just served could be reached again.
+	const XrTime time = refresh.display + period();
+	return {.latch = std::max(done, time - lead()), .vblank = refresh.vblank + period(), .display = time};
 }
 
 void Pacer::composed(XrDuration cost)

@@ -29,11 +29,13 @@ public:
 		XrTime vblank = 0;  ///< the image must be there
 		XrTime display = 0; ///< its middle line is seen
 	};
-	/// The first refresh for which composing can still begin in time when it is `now`. On a machine that composes for longer than a period
-	/// whole refreshes lie between two answers: images come late by the grid, never between its lines.
+	/// The first refresh for which composing can still begin in time when it is `now`. As late as that allows; on a machine that composes
+	/// for a period or longer at once: its images come as fast as it makes them, each at a line of the grid.
 	Refresh next(XrTime now) const;
-	/// The refresh that follows `refresh` when the compositor has done its work for it: what an application woken then draws for.
-	Refresh following(const Refresh &refresh) const { return next(refresh.latch + cost() + 1); }
+	/// The refresh to compose for after the one seen at `display`, when the work for that is done at `done`.
+	Refresh after(XrTime display, XrTime done) const;
+	/// The refresh that follows `refresh`, as far as is known when its work begins: what an application woken then draws for.
+	Refresh following(const Refresh &refresh) const { return after(refresh.display, refresh.latch + cost() + 1); }
 
 	/// What composing an image cost, from the latch until it was finished.
 	void composed(XrDuration cost);
@@ -48,6 +50,11 @@ public:
 
 private:
 	static constexpr size_t keptCosts = 64;
+
+	/// From the latch until the image is seen.
+	XrDuration lead() const { return settings_.vblankToDisplay + settings_.margin + cost_; }
+	/// Whether waiting for the latest latch would cost refreshes.
+	bool isSlow() const { return double(cost_ + settings_.margin) > period_; }
 
 	Settings settings_;
 	double period_; ///< ns

@@ -31,7 +31,7 @@ void useTables(std::vector<PanelCamera> &cameras, uint32_t size)
 	for (PanelCamera &camera : cameras) {
 		if (camera.form.coefficients == 0 && camera.form.table.size() == size) continue;
 		std::vector<float> table(size);
-		for (uint32_t i = 0; i < size; ++i) table[i] = float(gainAt(camera, camera.maxAngle * i / (size - 1)));
+		for (uint32_t i = 0; i < size; ++i) table[i] = float(gainAt(camera, std::cos(camera.maxAngle * i / (size - 1))));
 		camera.form.table = std::move(table);
 		camera.form.coefficients = 0;
 	}
@@ -39,15 +39,15 @@ void useTables(std::vector<PanelCamera> &cameras, uint32_t size)
 
 } // namespace
 
-double gainAt(const PanelCamera &camera, double angle)
+double gainAt(const PanelCamera &camera, double cosine)
 {
 	const ShaderCamera &form = camera.form;
 	if (form.coefficients == 0) {
-		const double at = angle / camera.maxAngle * double(form.table.size() - 1);
+		const double at = std::acos(std::min(cosine, 1.0)) / camera.maxAngle * double(form.table.size() - 1);
 		const size_t index = std::min(size_t(at), form.table.size() - 2);
 		return glm::mix(double(form.table[index]), double(form.table[index + 1]), at - double(index));
 	}
-	const double x = (std::cos(angle) - double(form.cosineCentre)) * double(form.cosineScale);
+	const double x = (cosine - double(form.cosineCentre)) * double(form.cosineScale);
 	double g = 0;
 	for (uint32_t i = form.coefficients; i-- > 0;) g = g * x + double(form.g[i]);
 	return g;

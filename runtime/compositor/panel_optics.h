@@ -13,8 +13,8 @@ struct PanelCamera {
 	double texelsPerRadian = 1; ///< at the edge of the image
 };
 
-/// ShaderCamera's G at an angle off the axis (0 to maxAngle), radians.
-double gainAt(const PanelCamera &camera, double angle);
+/// ShaderCamera's G at the cosine of an angle off the axis (0 to maxAngle).
+double gainAt(const PanelCamera &camera, double cosine);
 
 struct PanelOptics {
 	explicit PanelOptics(const Rig &rig);

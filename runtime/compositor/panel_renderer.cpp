@@ -112,17 +112,21 @@ std::vector<vk::raii::DescriptorSet> makeSets(const gpu::Device::Handles &gpu, c
 
 /// A layer image that is never drawn: something must be bound.
 constexpr uint64_t noImage = UINT64_MAX;
+/// Images that are drawn once, to warm up: whether sizes are powers of two is part of what a software renderer compiles.
+constexpr std::array<uint64_t, 2> warmUpImages{UINT64_MAX - 1, UINT64_MAX - 2};
+constexpr std::array<uint32_t, 2> warmUpSizes{3, 4};
 
-gpu::ImageSpec oneTexel()
+gpu::ImageSpec smallImage(uint32_t size)
 {
-	return {.format = VK_FORMAT_R8G8B8A8_UNORM, .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT, .width = 1, .height = 1};
+	return {.format = VK_FORMAT_R8G8B8A8_SRGB, .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT, .width = size, .height = size};
 }
 
 } // namespace
 
 struct PanelRenderer::Implementation {
-	Implementation(gpu::Device &device, const Rig &rig, VkFormat panelFormat);
+	Implementation(gpu::Device &device_, const Rig &rig, VkFormat panelFormat);
 
+	void warmUp();
 	void draw(Canvas &canvas, const PanelInputs &inputs);
 	void record(Canvas &canvas, const PanelInputs &inputs, const Drawing &drawing);
 	void drawItems(const Drawing &drawing) const;
@@ -132,6 +136,7 @@ struct PanelRenderer::Implementation {
 	void writeVertices(const Drawing &drawing);
 	ReadbackImage read(const Canvas &canvas);
 
+	gpu::Device &device;
 	gpu::Device::Handles &gpu;
 	PanelOptics optics;
 	VkFormat format;
@@ -155,8 +160,9 @@ struct PanelRenderer::Implementation {
 	const vk::raii::CommandBuffer &commands() const { return commandBuffers.front(); }
 };
 
-PanelRenderer::Implementation::Implementation(gpu::Device &device, const Rig &rig, VkFormat panelFormat)
-	: gpu(device.handles()),
+PanelRenderer::Implementation::Implementation(gpu::Device &device_, const Rig &rig, VkFormat panelFormat)
+	: device(device_),
+	  gpu(device.handles()),
 	  optics(rig),
 	  format(panelFormat),
 	  pipelines(gpu, vk::Format(format), optics),
@@ -165,9 +171,9 @@ PanelRenderer::Implementation::Implementation(gpu::Device &device, const Rig &ri
 	  linear(makeSampler(gpu, vk::Filter::eLinear)),
 	  nearest(makeSampler(gpu, vk::Filter::eNearest)),
 	  eyeBlocks(gpu, eyeSetCount),
-	  cameraImages(gpu),
+	  cameraImages(gpu, optics),
 	  angleTables{makeAngleTable(gpu, optics, 0), makeAngleTable(gpu, optics, 1)},
-	  noLayer(device, oneTexel()),
+	  noLayer(device, smallImage(1)),
 	  layerImages(gpu, pipelines.layerSetLayout(), *linear),
 	  pool(makePool(gpu)),
 	  eyeSets(makeSets(gpu, pool, pipelines)),
@@ -209,7 +215,7 @@ std::vector<const LayerImages::Entry *> PanelRenderer::Implementation::imagesOf(
 {
 	std::vector<const LayerImages::Entry *> entries;
 	for (const DrawItem &item : drawing.items) {
-		if (!item.pipeline.layer) continue;
+		if (item.pipeline.layer == Cover::none) continue;
 		const LayerImages::Entry *entry = layerImages.find(item.image);
 		if (std::find(entries.begin(), entries.end(), entry) == entries.end()) entries.push_back(entry);
 	}
@@ -230,11 +236,11 @@ void PanelRenderer::Implementation::drawItems(const Drawing &drawing) const
 	constexpr shaders::LayerBlock unused{};
 	commands().bindVertexBuffers(0, *vertices->buffer, vk::DeviceSize(0));
 	for (const DrawItem &item : drawing.items) {
-		const LayerImages::Entry *layer = item.pipeline.layer ? layerImages.find(item.image) : none;
+		const LayerImages::Entry *layer = item.pipeline.layer != Cover::none ? layerImages.find(item.image) : none;
 		commands().bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines.at(item.pipeline));
 		commands().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0,
 									  {*eyeSets[item.eyeBlock], *layer->sets[item.arrayIndex]}, {});
-		const shaders::LayerBlock &block = item.pipeline.layer ? drawing.layerBlocks[item.layerBlock] : unused;
+		const shaders::LayerBlock &block = item.pipeline.layer != Cover::none ? drawing.layerBlocks[item.layerBlock] : unused;
 		commands().pushConstants<shaders::LayerBlock>(pipelines.layout(), vk::ShaderStageFlagBits::eVertex, 0, block);
 		commands().draw(item.vertexCount, 1, item.firstVertex, 0);
 	}
@@ -258,6 +264,20 @@ void PanelRenderer::Implementation::record(Canvas &canvas, const PanelInputs &in
 	commands().endRenderPass();
 	layerImages.release(commands(), entries);
 	commands().end();
+}
+
+void PanelRenderer::Implementation::warmUp()
+{
+	std::vector<gpu::SharedImage> images;
+	for (size_t i = 0; i < warmUpImages.size(); ++i) {
+		const gpu::SharedImage &image = images.emplace_back(device, smallImage(warmUpSizes[i]));
+		layerImages.add(warmUpImages[i], image.image(), image.spec(), {});
+	}
+	// Inside the lens circle, where every frame draws anew.
+	const glm::ivec2 axis(panel.geometry.eyes[0].axis);
+	record(panel, {}, warmUpDrawing(usualKeys(optics), warmUpImages, {axis.x, axis.y, axis.x + 4, axis.y + 4}));
+	gpu.submitAndWait(commands(), fence);
+	for (const uint64_t key : warmUpImages) layerImages.remove(key);
 }
 
 void PanelRenderer::Implementation::draw(Canvas &canvas, const PanelInputs &inputs)
@@ -294,6 +314,8 @@ PanelRenderer::PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat forma
 }
 
 PanelRenderer::~PanelRenderer() = default;
+
+void PanelRenderer::warmUp() { implementation_->warmUp(); }
 
 void PanelRenderer::addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows)
 {

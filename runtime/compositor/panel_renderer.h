@@ -29,6 +29,10 @@ public:
 	PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat format = VK_FORMAT_R8G8B8A8_SRGB);
 	~PanelRenderer();
 
+	/// Draws what is usual once: software renderers compile a pipeline when it is first drawn with a kind of texture, which costs a frame.
+	/// What is rarer (layers that are not sRGB encoded or not 8-bit RGBA, cameras of encoded values, eyes without the lens) is left out.
+	void warmUp();
+
 	/// An application's image. It must be in its boundary layout, owned by VK_QUEUE_FAMILY_EXTERNAL, whenever render() is given it.
 	/// Where a CPU finds its texels in `rows`, parts without content are left out.
 	void addImage(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows = {});

@@ -64,7 +64,9 @@ struct Constants {
 	int32_t distortionCoefficients, cameraCoefficients;
 	VkBool32 tangential;
 	int32_t background;
-	VkBool32 encoded, layer, throughLens, redItself, layerEncoded;
+	VkBool32 encoded;
+	int32_t layer;
+	VkBool32 throughLens, redItself, layerEncoded;
 	PanelNumbers numbers;
 };
 
@@ -75,7 +77,7 @@ Constants constantsFor(const PanelOptics &optics, const ViewGeometry &geometry, 
 			optics.tangential,
 			int32_t(key.background),
 			key.encoded,
-			key.layer,
+			int32_t(key.layer),
 			key.throughLens,
 			optics.redItself,
 			key.layerEncoded,
@@ -149,6 +151,17 @@ std::vector<PipelineKey> backdrops(const PanelOptics &optics, bool throughLens)
 	return keys;
 }
 
+/// `key` with a layer of every kind.
+void addLayers(std::vector<PipelineKey> &keys, PipelineKey key, std::initializer_list<Cover> covers)
+{
+	for (const Cover cover : covers)
+		for (const bool encoded : {false, true}) {
+			key.layer = cover;
+			key.layerEncoded = encoded;
+			keys.push_back(key);
+		}
+}
+
 /// Every combination TileDraw and the cameras' formats can ask for.
 std::vector<PipelineKey> everyKey(const PanelOptics &optics)
 {
@@ -156,24 +169,28 @@ std::vector<PipelineKey> everyKey(const PanelOptics &optics)
 	for (const bool throughLens : {true, false}) {
 		for (PipelineKey key : backdrops(optics, throughLens)) {
 			keys.push_back(key);
+			addLayers(keys, key, {Cover::partly, Cover::fully});
 			key.blend = Blend::add;
 			keys.push_back(key);
-			key.blend = Blend::replace;
-			key.layer = true;
-			for (const bool layerEncoded : {false, true}) {
-				key.layerEncoded = layerEncoded;
-				keys.push_back(key);
-			}
 		}
-		for (const Blend blend : {Blend::replace, Blend::over})
-			for (const bool layerEncoded : {false, true})
-				keys.push_back({.blend = blend, .layer = true, .layerEncoded = layerEncoded, .throughLens = throughLens});
 		keys.push_back({.throughLens = throughLens});
+		addLayers(keys, {.throughLens = throughLens}, {Cover::partly, Cover::fully, Cover::opaque});
+		addLayers(keys, {.blend = Blend::over, .throughLens = throughLens}, {Cover::partly, Cover::fully});
 	}
 	return keys;
 }
 
 } // namespace
+
+std::vector<PipelineKey> usualKeys(const PanelOptics &optics)
+{
+	std::vector<PipelineKey> keys = everyKey(optics);
+	std::erase_if(keys, [](const PipelineKey &key) {
+		const bool rareLayer = key.layer != Cover::none && (!key.layerEncoded || key.background == Background::pattern);
+		return !key.throughLens || key.encoded || key.blend == Blend::add || rareLayer;
+	});
+	return keys;
+}
 
 Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const PanelOptics &optics)
 	: renderPass_(makeRenderPass(gpu, format)),

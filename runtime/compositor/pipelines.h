@@ -16,11 +16,14 @@ struct PipelineKey {
 	Background background = Background::none;
 	uint32_t camera = 0;  ///< whose lens; 0 without a camera
 	bool encoded = false; ///< the camera's values are sRGB encoded
-	bool layer = false;
-	bool layerEncoded = false; ///< its texels are sRGB encoded
+	Cover layer = Cover::none;
+	bool layerEncoded = false; ///< the layer's texels are sRGB encoded
 	bool throughLens = true;
 	auto operator<=>(const PipelineKey &) const = default;
 };
+
+/// What is drawn day after day: both cameras with linear values, layers of sRGB encoded texels, through the lens.
+std::vector<PipelineKey> usualKeys(const PanelOptics &optics);
 
 class Pipelines
 {

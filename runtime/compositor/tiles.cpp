@@ -39,63 +39,70 @@ struct Reach {
 		least = glm::min(least, uv);
 		most = glm::max(most, uv);
 	}
-	void add(const Reach &other)
-	{
-		least = glm::min(least, other.least);
-		most = glm::max(most, other.most);
-		front |= other.front;
-		behind |= other.behind;
-	}
-	Cover cover(const HasContent &hasContent) const
+	Cover cover(glm::dvec2 border, const ContentOf &contentOf) const
 	{
 		if (!front) return Cover::none;
 		if (behind) return Cover::partly;
 		const glm::dvec2 margin = (most - least) * bulge + 1e-6;
 		const glm::dvec2 low = least - margin, high = most + margin;
 		if (low.x > 1 || low.y > 1 || high.x < 0 || high.y < 0) return Cover::none;
-		if (hasContent && !hasContent(low, high)) return Cover::none;
-		return low.x > 0 && low.y > 0 && high.x < 1 && high.y < 1 ? Cover::fully : Cover::partly;
+		const Content content = contentOf(low, high);
+		if (content == Content::none) return Cover::none;
+		if (!(low.x > border.x && low.y > border.y && high.x < 1 - border.x && high.y < 1 - border.y)) return Cover::partly;
+		return content == Content::opaque ? Cover::opaque : Cover::fully;
 	}
 };
 
-std::vector<Reach> reachOfCorners(const TileGrid &grid, const MatrixByBand &uvMatrix)
+/// A layer's matrix at every row of corners.
+class LayerReach
 {
-	std::vector<Reach> reach;
-	reach.reserve(size_t(grid.rows() + 1) * size_t(grid.columns() + 1));
-	for (int row = 0; row <= grid.rows(); ++row) {
-		const glm::dmat3 m = matrixAtRow(grid, uvMatrix, row);
-		for (int column = 0; column <= grid.columns(); ++column) {
-			const glm::dvec2 t = grid.corner(column, row);
-			Reach &here = reach.emplace_back();
-			for (const double colour : extremeColours) here.add(m * glm::dvec3(t * colour, 1));
-		}
+public:
+	LayerReach(const TileGrid &grid, const MatrixByBand &uvMatrix) : grid_(grid)
+	{
+		for (int row = 0; row <= grid.rows(); ++row) byRow_.push_back(matrixAtRow(grid, uvMatrix, row));
 	}
-	return reach;
-}
+	/// Over tiles from (column, row) to before (column1, row1).
+	Reach of(int column, int row, int column1, int row1) const
+	{
+		Reach reach;
+		for (const int y : {row, row1})
+			for (const int x : {column, column1})
+				for (const double colour : extremeColours) reach.add(byRow_[size_t(y)] * glm::dvec3(grid_.corner(x, y) * colour, 1));
+		return reach;
+	}
+
+private:
+	const TileGrid &grid_;
+	std::vector<glm::dmat3> byRow_;
+};
 
 /// Collects tiles by what draws them, and cuts them into rectangles.
 class Plan
 {
 public:
 	explicit Plan(const TileGrid &grid) : grid_(grid) {}
-	void add(Blend blend, Behind behind, int layer, uint32_t band, const PixelRect &tile)
+	void add(Blend blend, Behind behind, int layer, Cover cover, uint32_t band, const PixelRect &tile)
 	{
 		// The bottom-most of a tile first, then layers upwards, then light that is added to all of them.
-		byDraw_.try_emplace({blend, blend == Blend::over ? layer : 0, band, layer, behind}, grid_.area()).first->second.add(tile);
+		const Key key{blend, blend == Blend::over ? layer : 0, band, layer, cover, behind};
+		if (last_ == byDraw_.end() || last_->first != key) last_ = byDraw_.try_emplace(key, grid_.area()).first;
+		last_->second.add(tile);
 	}
 	std::vector<TileDraw> draws()
 	{
 		std::vector<TileDraw> draws;
 		for (auto &[key, blocks] : byDraw_) {
-			const auto &[blend, order, band, layer, behind] = key;
-			draws.push_back({blend, behind, layer, band, blocks.takeRects()});
+			const auto &[blend, order, band, layer, cover, behind] = key;
+			draws.push_back({blend, behind, layer, cover, band, blocks.takeRects()});
 		}
 		return draws;
 	}
 
 private:
+	using Key = std::tuple<Blend, int, uint32_t, int, Cover, Behind>;
 	const TileGrid &grid_;
-	std::map<std::tuple<Blend, int, uint32_t, int, Behind>, BlockSet> byDraw_;
+	std::map<Key, BlockSet> byDraw_;
+	std::map<Key, BlockSet>::iterator last_ = byDraw_.end(); ///< neighbours are mostly drawn alike
 };
 
 } // namespace
@@ -116,7 +123,9 @@ TileGrid::TileGrid(PixelRect area, glm::dvec2 centre, double radius, const std::
 		const int y = std::min(area.y0 + row * tileHeight, area.y1);
 		for (int column = 0; column <= columns_; ++column)
 			corners_.push_back(tangents({std::min(area.x0 + column * tileWidth, area.x1), y}));
-		if (row < rows_) visible_.push_back(circleColumns(area, centre, radius, y, std::min(y + tileHeight, area.y1)));
+		// Two rows alike: fewer rectangles.
+		const int pair = area.y0 + row / 2 * 2 * tileHeight;
+		if (row < rows_) visible_.push_back(circleColumns(area, centre, radius, pair, std::min(pair + 2 * tileHeight, area.y1)));
 	}
 }
 
@@ -133,26 +142,27 @@ PixelRect TileGrid::tile(int column, int row) const
 	return {std::max(x, first), y, std::min(x + tileWidth, last), std::min(y + tileHeight, area_.y1)};
 }
 
-std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, const HasContent &hasContent)
+std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, glm::dvec2 border, const ContentOf &contentOf)
 {
-	const auto corners = reachOfCorners(grid, uvMatrix);
-	const auto at = [&](int column, int row) -> const Reach & {
-		return corners[size_t(row) * size_t(grid.columns() + 1) + size_t(column)];
+	const LayerReach reach(grid, uvMatrix);
+	std::vector<Cover> cover(size_t(grid.rows()) * size_t(grid.columns()));
+	const auto coverOf = [&](int column, int row, int column1, int row1) {
+		return reach.of(column, row, column1, row1).cover(border, contentOf);
 	};
-	std::vector<Cover> cover;
-	cover.reserve(size_t(grid.rows()) * size_t(grid.columns()));
-	for (int row = 0; row < grid.rows(); ++row)
-		for (int column = 0; column < grid.columns(); ++column) {
-			Reach tile = at(column, row);
-			tile.add(at(column + 1, row));
-			tile.add(at(column, row + 1));
-			tile.add(at(column + 1, row + 1));
-			cover.push_back(tile.cover(hasContent));
+	// Four tiles together first: most lie wholly inside or outside.
+	for (int row = 0; row < grid.rows(); row += 2)
+		for (int column = 0; column < grid.columns(); column += 2) {
+			const int row1 = std::min(row + 2, grid.rows()), column1 = std::min(column + 2, grid.columns());
+			const Cover together = coverOf(column, row, column1, row1);
+			for (int y = row; y < row1; ++y)
+				for (int x = column; x < column1; ++x)
+					cover[size_t(y) * size_t(grid.columns()) + size_t(x)] =
+						together == Cover::partly ? coverOf(x, y, x + 1, y + 1) : together;
 		}
 	return cover;
 }
 
-std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const PlannedLayer> layers,
+std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const std::vector<Cover>> layers,
 								const std::vector<bool> &seen)
 {
 	const bool environment = blendMode != XR_ENVIRONMENT_BLEND_MODE_OPAQUE, additive = blendMode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
@@ -165,8 +175,8 @@ std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode ble
 		bool backdrop = environment;
 		here.clear();
 		for (size_t i = 0; i < layers.size(); ++i) {
-			if (layers[i].cover.empty() || layers[i].cover[index] == Cover::none) continue;
-			if (layers[i].opaque && layers[i].cover[index] == Cover::fully) {
+			if (layers[i].empty() || layers[i][index] == Cover::none) continue;
+			if (layers[i][index] == Cover::opaque) {
 				here.clear();
 				backdrop = additive;
 			}
@@ -176,9 +186,16 @@ std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode ble
 		const bool later = additive && here.size() > 1;
 		const uint32_t band = grid.bandOf(row);
 		const Behind behind = seen.empty() || seen[index] ? Behind::camera : Behind::unseen;
-		plan.add(Blend::replace, backdrop && !later ? behind : Behind::nothing, here.empty() ? -1 : here.front(), band, rect);
-		for (size_t i = 1; i < here.size(); ++i) plan.add(Blend::over, Behind::nothing, here[i], band, rect);
-		if (later) plan.add(Blend::add, behind, -1, band, rect);
+		const auto addLayer = [&](Blend blend, Behind under, int layer) {
+			plan.add(blend, under, layer, layers[size_t(layer)][index], band, rect);
+		};
+		const Behind under = backdrop && !later ? behind : Behind::nothing;
+		if (here.empty())
+			plan.add(Blend::replace, under, -1, Cover::none, band, rect);
+		else
+			addLayer(Blend::replace, under, here.front());
+		for (size_t i = 1; i < here.size(); ++i) addLayer(Blend::over, Behind::nothing, here[i]);
+		if (later) plan.add(Blend::add, behind, -1, Cover::none, band, rect);
 	};
 	for (int row = 0; row < grid.rows(); ++row)
 		for (int column = 0; column < grid.columns(); ++column) addTile(column, row);

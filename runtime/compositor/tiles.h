@@ -3,6 +3,7 @@
 #pragma once
 #include "runtime/base/xr.h"
 #include "runtime/compositor/block_set.h"
+#include "runtime/compositor/occupancy.h"
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -25,7 +26,7 @@ class TileGrid
 {
 public:
 	/// Of whole blocks of a software renderer (4x4, 16x16 and 64x64 pixels): it shades those that are covered wholly at half the price.
-	static constexpr int tileWidth = 32, tileHeight = 32;
+	static constexpr int tileWidth = BlockSet::width, tileHeight = BlockSet::height;
 	/// `tangents` of a pixel position; nothing is drawn further than `radius` pixels from `centre`.
 	TileGrid(PixelRect area, glm::dvec2 centre, double radius, const std::function<glm::dvec2(glm::dvec2)> &tangents);
 
@@ -44,7 +45,7 @@ private:
 	PixelRect area_;
 	int columns_, rows_;
 	std::vector<glm::dvec2> corners_;
-	std::vector<std::array<int, 2>> visible_; ///< first and last column of pixels, by row of tiles, in whole blocks where the area allows
+	std::vector<std::array<int, 2>> visible_; ///< first and last column of pixels, by row of tiles, in whole tiles where the area allows
 };
 
 /// Red and blue are seen at tangents that differ by at most these factors from green's.
@@ -52,12 +53,13 @@ inline constexpr std::array extremeColours{0.985, 1.02};
 /// At the upper edge of a row of tiles; of `grid.rows()`: at the lower edge of the last.
 glm::dmat3 matrixAtRow(const TileGrid &grid, const MatrixByBand &m, int row);
 
-enum class Cover : uint8_t { none, partly, fully };
-/// Whether there may be anything between two corners of a layer's image, uv.
-using HasContent = std::function<bool(glm::dvec2 least, glm::dvec2 most)>;
-/// By tile, row by row: where a layer with these matrices (reprojection.h) lies and has content. Never says `none` or `fully` in error, for
-/// any colour.
-std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, const HasContent &hasContent = {});
+/// Fully: the whole tile lies inside the layer's image. Opaque: and nothing behind the layer shines through.
+enum class Cover : uint8_t { none, partly, fully, opaque };
+/// What there may be between two corners of a layer's image, uv.
+using ContentOf = std::function<Content(glm::dvec2 least, glm::dvec2 most)>;
+/// By tile, row by row: where a layer with these matrices (reprojection.h) lies and has content. Never says `none`, `fully` or `opaque` in
+/// error, for any colour; `border`: less than this inside the image's edges, uv, is not inside.
+std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, glm::dvec2 border, const ContentOf &contentOf);
 
 enum class Blend : uint32_t { replace, over, add };
 /// What stands behind a tile's layers: the camera's image, or what is shown where it sees nothing.
@@ -66,15 +68,13 @@ struct TileDraw {
 	Blend blend = Blend::replace;
 	Behind behind = Behind::nothing;
 	int layer = -1;
+	Cover cover = Cover::none; ///< the layer's, of every tile
 	uint32_t band = 0;
 	std::vector<PixelRect> rects; ///< do not overlap
 };
-struct PlannedLayer {
-	std::vector<Cover> cover; ///< empty: this eye does not see it
-	bool opaque = false;
-};
-/// The draws of one eye in their order. `seen`: by tile, where the camera's image is asked for; empty: everywhere.
-std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const PlannedLayer> layers,
+/// The draws of one eye in their order. `layers`: their coverage, bottom first; empty: this eye does not see it. `seen`: by tile, where the
+/// camera's image is asked for; empty: everywhere.
+std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const std::vector<Cover>> layers,
 								const std::vector<bool> &seen = {});
 
 } // namespace arift

@@ -26,7 +26,11 @@ Composition::Composition(const Purpose &purpose) : purpose_(purpose), device_(ex
 
 Composition::~Composition() = default;
 
-void Composition::makeRenderer() { renderer_ = std::make_unique<PanelRenderer>(device_, purpose_.rig); }
+void Composition::makeRenderer()
+{
+	renderer_ = std::make_unique<PanelRenderer>(device_, purpose_.rig);
+	renderer_->warmUp();
+}
 
 std::unique_ptr<Target> Composition::makeTarget(Clock &clock)
 {

@@ -12,7 +12,8 @@ constexpr uint32_t width = 100, height = 70, pitch = 480;
 
 struct Memory {
 	std::vector<std::byte> bytes = std::vector<std::byte>(size_t(pitch) * height);
-	Occupancy occupancy{bytes.data(), pitch, 4, width, height};
+	Occupancy occupancy{
+		{.first = bytes.data(), .rowPitch = pitch, .bytesPerTexel = 4, .alphaLast = true, .width = width, .height = height}};
 	std::byte &at(uint32_t x, uint32_t y, uint32_t channel) { return bytes[size_t(y) * pitch + size_t(x) * 4 + channel]; }
 };
 
@@ -27,7 +28,8 @@ TEST(Occupancy, findsEverySingleTexelInItsBlockAlone)
 			for (int column = 0; column * block < int(width); ++column)
 				for (int row = 0; row * block < int(height); ++row) {
 					const TexelRect inside{column * block, row * block, (column + 1) * block, (row + 1) * block};
-					EXPECT_EQ(memory.occupancy.mayHaveContent(inside), column == x / block && row == y / block) << x << ' ' << y;
+					const bool here = column == x / block && row == y / block;
+					EXPECT_EQ(memory.occupancy.contentOf(inside), here ? Content::some : Content::none) << x << ' ' << y;
 				}
 			memory.at(uint32_t(x), uint32_t(y), channel) = std::byte{0};
 		}
@@ -38,20 +40,54 @@ TEST(Occupancy, doesNotLookBesideTheImage)
 	Memory memory;
 	for (uint32_t y = 0; y < height; ++y)
 		for (uint32_t x = 4 * width; x < pitch; ++x) memory.bytes[size_t(y) * pitch + x] = std::byte{255};
-	EXPECT_FALSE(memory.occupancy.mayHaveContent({-50, -50, 500, 500}));
-	EXPECT_FALSE(memory.occupancy.mayHaveContent({100, 0, 120, 10}));
-	EXPECT_FALSE(memory.occupancy.mayHaveContent({-20, 0, 0, 10}));
+	EXPECT_EQ(memory.occupancy.contentOf({-50, -50, 500, 500}), Content::none);
+	EXPECT_EQ(memory.occupancy.contentOf({100, 0, 120, 10}), Content::none);
+	EXPECT_EQ(memory.occupancy.contentOf({-20, 0, 0, 10}), Content::none);
 }
 
 TEST(Occupancy, looksAtABlockOnceUntilItIsToldToForget)
 {
 	Memory memory;
-	EXPECT_FALSE(memory.occupancy.mayHaveContent({0, 0, 32, 32}));
+	EXPECT_EQ(memory.occupancy.contentOf({0, 0, 32, 32}), Content::none);
 	memory.at(5, 5, 3) = std::byte{9};
-	EXPECT_FALSE(memory.occupancy.mayHaveContent({0, 0, 32, 32}));
+	EXPECT_EQ(memory.occupancy.contentOf({0, 0, 32, 32}), Content::none);
 	EXPECT_EQ(memory.occupancy.examined(), 1u);
 	memory.occupancy.forget();
-	EXPECT_TRUE(memory.occupancy.mayHaveContent({0, 0, 32, 32}));
+	EXPECT_EQ(memory.occupancy.contentOf({0, 0, 32, 32}), Content::some);
+}
+
+TEST(Occupancy, isOpaqueWhereEveryTexelIs)
+{
+	Memory memory;
+	for (uint32_t y = 0; y < height; ++y)
+		for (uint32_t x = 0; x < width; ++x) memory.at(x, y, 3) = std::byte{255};
+	EXPECT_EQ(memory.occupancy.contentOf({0, 0, int(width), int(height)}), Content::opaque);
+	for (const auto &[x, y] : {std::pair{31u, 31u}, {32u, 0u}, {99u, 69u}, {67u, 45u}, {98u, 0u}}) {
+		memory.at(x, y, 3) = std::byte{254};
+		memory.occupancy.forget();
+		EXPECT_EQ(memory.occupancy.contentOf({0, 0, int(width), int(height)}), Content::some) << x << ' ' << y;
+		EXPECT_EQ(memory.occupancy.contentOf({int(x), int(y), int(x) + 1, int(y) + 1}), Content::some) << x << ' ' << y;
+		const uint32_t other = x < 32 ? 64 : 0;
+		EXPECT_EQ(memory.occupancy.contentOf({int(other), 0, int(other) + 1, 1}), Content::opaque) << x << ' ' << y;
+		memory.at(x, y, 3) = std::byte{255};
+	}
+}
+
+TEST(Occupancy, emptyAndOpaqueTogetherAreNeither)
+{
+	Memory memory;
+	for (uint32_t y = 0; y < 32; ++y)
+		for (uint32_t x = 0; x < 32; ++x) memory.at(x, y, 3) = std::byte{255};
+	EXPECT_EQ(memory.occupancy.contentOf({0, 0, 32, 32}), Content::opaque);
+	EXPECT_EQ(memory.occupancy.contentOf({32, 0, 64, 32}), Content::none);
+	EXPECT_EQ(memory.occupancy.contentOf({0, 0, 64, 32}), Content::some);
+}
+
+TEST(Occupancy, withoutAnAlphaByteNothingIsKnownToBeOpaque)
+{
+	const std::vector<std::byte> bytes(size_t(8) * 64 * 64, std::byte{255});
+	Occupancy occupancy({.first = bytes.data(), .rowPitch = 8 * 64, .bytesPerTexel = 8, .width = 64, .height = 64});
+	EXPECT_EQ(occupancy.contentOf({0, 0, 64, 64}), Content::some);
 }
 
 // ---- what is drawn
@@ -98,7 +134,7 @@ protected:
 			}
 		return sum;
 	}
-	static bool withLayer(const PipelineKey &key) { return key.layer; }
+	static bool withLayer(const PipelineKey &key) { return key.layer != Cover::none; }
 	static bool withCamera(const PipelineKey &key) { return key.background == Background::camera; }
 	static bool any(const PipelineKey &) { return true; }
 
@@ -108,7 +144,8 @@ protected:
 	std::array<TileGrid, 2> grids{makeGrid(optics, geometry, 0), makeGrid(optics, geometry, 1)};
 	gpu::ImageSpec spec{.format = VK_FORMAT_R8G8B8A8_SRGB, .width = size, .height = size};
 	std::vector<std::byte> texels = std::vector<std::byte>(size_t(size) * size * 4);
-	Occupancy occupancy{texels.data(), size_t(size) * 4, 4, size, size};
+	Occupancy occupancy{
+		{.first = texels.data(), .rowPitch = size_t(size) * 4, .bytesPerTexel = 4, .alphaLast = true, .width = size, .height = size}};
 	PanelInputs inputs;
 };
 
@@ -160,6 +197,21 @@ TEST_F(DrawnWork, aCameraIsNotAskedBehindAnOpaqueLayer)
 	inputs.layers = {projection(0)};
 	const Drawing covered = drawing();
 	EXPECT_LT(pixels(covered, withCamera), pixels(covered, any) / 10);
+}
+
+TEST_F(DrawnWork, aCameraIsNotAskedBehindTexelsThatAreOpaque)
+{
+	std::ranges::fill(texels, std::byte{255});
+	const Drawing covered = drawing();
+	EXPECT_LT(pixels(covered, withCamera), pixels(covered, any) / 10);
+	// One texel straight ahead lets what is behind it through.
+	texels[(size_t(size) / 2 * size + size / 2) * 4 + 3] = std::byte{254};
+	const Drawing pierced = drawing();
+	EXPECT_GT(pixels(pierced, withCamera), pixels(covered, withCamera));
+	EXPECT_LT(pixels(pierced, withCamera), pixels(pierced, any) / 10);
+	// Light is added to it all the same.
+	inputs.blendMode = XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
+	EXPECT_GT(pixels(drawing(), withCamera), pixels(covered, any) / 3);
 }
 
 } // namespace

@@ -18,6 +18,8 @@ struct Simulation {
 	XrDuration truePeriod = period, cost = 4'000'000;
 	XrTime firstDisplay = 1'000'000'000 + 3'000'000; ///< not where the pacer thinks
 	XrTime now = 2'000'000'000;
+	bool held = true; ///< by a display with vertical synchronisation, which takes an image at its blank; else images wait in a queue
+	std::optional<Pacer::Refresh> last;
 	std::vector<XrTime> shown;
 	std::vector<XrDuration> waitedForBlank;
 
@@ -30,14 +32,15 @@ struct Simulation {
 	}
 	Pacer::Refresh frame(XrDuration jitter = 0)
 	{
-		const Pacer::Refresh refresh = pacer.next(now);
+		const Pacer::Refresh refresh = last ? pacer.after(last->display, now) : pacer.next(now);
+		last = refresh;
 		const XrTime finished = refresh.latch + cost;
 		pacer.composed(cost);
 		const XrTime display = displayAfter(finished);
 		waitedForBlank.push_back(display - vblankToDisplay - finished);
 		shown.push_back(display);
 		pacer.displayed(display + jitter);
-		now = std::max(finished, display - vblankToDisplay); // as a display with vertical synchronisation lets go
+		now = held ? std::max(finished, display - vblankToDisplay) : finished;
 		return refresh;
 	}
 	void run(int frames)
@@ -107,6 +110,36 @@ TEST(Pacer, aSlowMachineSkipsWholeRefreshes)
 	EXPECT_EQ(simulation.pacer.missed() - missedBefore, 2u * 60u);
 }
 
+TEST(Pacer, aMachineThatIsNotHeldUpByItsDisplayShowsAsManyImagesAsItMakes)
+{
+	for (const double periods : {1.05, 1.5, 2.4, 3.3}) {
+		Simulation simulation;
+		simulation.held = false;
+		simulation.cost = XrDuration(periods * period);
+		simulation.run(100);
+		const size_t begin = simulation.shown.size();
+		simulation.run(600);
+		const std::vector<XrTime> &shown = simulation.shown;
+		EXPECT_NEAR(double(shown.back() - shown[begin]) / double(shown.size() - 1 - begin), double(simulation.cost), 0.01 * period)
+			<< periods;
+		for (size_t i = begin; i < shown.size(); ++i) EXPECT_GE(shown[i] - shown[i - 1], period / 2) << "no refresh is served twice";
+	}
+}
+
+TEST(Pacer, aRefreshIsNotServedAgainWhenComposingWasCheaperThanExpected)
+{
+	for (const XrDuration expected : {4'000'000, 40'000'000}) {
+		Pacer pacer(settings, 1'000'000'000);
+		for (int i = 0; i < 64; ++i) pacer.composed(expected);
+		const Pacer::Refresh refresh = pacer.next(2'000'000'000);
+		const Pacer::Refresh after = pacer.after(refresh.display, refresh.latch + 100'000);
+		EXPECT_EQ(after.display - refresh.display, period);
+		EXPECT_EQ(after.display - after.vblank, vblankToDisplay);
+		EXPECT_GE(after.latch, refresh.latch + 100'000);
+		EXPECT_GE(after.latch, after.vblank - margin - expected) << "not a period early for ever";
+	}
+}
+
 TEST(Pacer, anOutlierDoesNotChangeTheExpectedCost)
 {
 	Pacer pacer(settings, 0);
@@ -134,11 +167,14 @@ TEST(Pacer, anApplicationWokenNowIsToldTheRefreshAfterThisOne)
 	const Pacer::Refresh now = simulation.pacer.next(simulation.now), after = simulation.pacer.following(now);
 	EXPECT_NEAR(double(after.display - now.display), double(period), 2);
 	EXPECT_GE(after.latch, now.latch + simulation.pacer.cost());
-	// Where composing takes longer than a period, the image in between is never made.
-	simulation.cost = 20'000'000;
+	// Where composing takes longer than a period, some images in between are never made.
+	simulation.cost = 40'000'000;
+	simulation.held = false;
 	simulation.run(100);
-	const Pacer::Refresh slow = simulation.pacer.next(simulation.now);
-	EXPECT_NEAR(double(simulation.pacer.following(slow).display - slow.display), 2.0 * period, 3);
+	for (int i = 0; i < 20; ++i) {
+		const Pacer::Refresh promised = simulation.pacer.following(simulation.frame());
+		EXPECT_NEAR(double(simulation.pacer.after(simulation.last->display, simulation.now).display), double(promised.display), 3);
+	}
 }
 
 } // namespace

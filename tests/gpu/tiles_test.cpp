@@ -22,6 +22,12 @@ MatrixByBand window(double left, double right, double up, double down)
 	return {m, m, m};
 }
 
+/// Of a layer that has content everywhere.
+std::vector<Cover> covered(const TileGrid &grid, const MatrixByBand &m, Content content = Content::some)
+{
+	return coverage(grid, m, {0, 0}, [=](auto, auto) { return content; });
+}
+
 /// How often each pixel is drawn, by blend.
 std::map<Blend, std::vector<int>> painted(const std::vector<TileDraw> &draws)
 {
@@ -52,7 +58,7 @@ TEST(TileGrid, coversTheCircleAndLittleElse)
 TEST(Coverage, isExactInTheMiddleAndCarefulAtEdges)
 {
 	const TileGrid grid = plainGrid();
-	const auto cover = coverage(grid, window(-0.5, 0.5, 0.3, -0.3));
+	const auto cover = covered(grid, window(-0.5, 0.5, 0.3, -0.3));
 	for (int row = 0; row < grid.rows(); ++row)
 		for (int column = 0; column < grid.columns(); ++column) {
 			const auto least = glm::min(grid.corner(column, row), grid.corner(column + 1, row + 1));
@@ -67,11 +73,27 @@ TEST(Coverage, isExactInTheMiddleAndCarefulAtEdges)
 	EXPECT_EQ(cover.front(), Cover::none);
 }
 
+TEST(Coverage, aBorderWithinTheImageIsNotItsInside)
+{
+	const TileGrid grid = plainGrid();
+	const auto within = [&](double border) {
+		return coverage(grid, window(-0.8, 0.8, 0.6, -0.6), {border, border}, [](auto, auto) { return Content::some; });
+	};
+	const auto none = within(0), some = within(0.2);
+	int fewer = 0;
+	for (size_t i = 0; i < none.size(); ++i) {
+		if (none[i] == some[i]) continue;
+		++fewer;
+		EXPECT_EQ(none[i], Cover::fully);
+		EXPECT_EQ(some[i], Cover::partly);
+	}
+	EXPECT_GT(fewer, 20);
+}
+
 TEST(PlanDraws, everyPixelIsReplacedOnceAndEachFurtherLayerBlended)
 {
 	const TileGrid grid = plainGrid();
-	const std::array layers{PlannedLayer{coverage(grid, window(-2, 2, 2, -2)), false},
-							PlannedLayer{coverage(grid, window(-2, 0, 2, -2)), false}};
+	const std::array layers{covered(grid, window(-2, 2, 2, -2)), covered(grid, window(-2, 0, 2, -2))};
 	const auto counts = painted(planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, layers));
 	for (const int count : counts.at(Blend::replace)) ASSERT_EQ(count, 1);
 	EXPECT_EQ(counts.at(Blend::over)[200 * 640 + 10], 1);
@@ -82,18 +104,34 @@ TEST(PlanDraws, everyPixelIsReplacedOnceAndEachFurtherLayerBlended)
 TEST(PlanDraws, anOpaqueLayerOverAWholeTileLeavesNothingBelow)
 {
 	const TileGrid grid = plainGrid();
-	const std::array layers{PlannedLayer{coverage(grid, window(-2, 2, 2, -2)), false},
-							PlannedLayer{coverage(grid, window(-2, 2, 2, -2)), true}};
+	const std::array layers{covered(grid, window(-2, 2, 2, -2)), covered(grid, window(-2, 2, 2, -2), Content::opaque)};
 	for (const TileDraw &draw : planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, layers)) {
 		EXPECT_EQ(draw.layer, 1);
 		EXPECT_EQ(draw.behind, Behind::nothing);
+		EXPECT_EQ(draw.cover, Cover::opaque);
 	}
+}
+
+TEST(PlanDraws, aLayersEdgesAreDrawnApartFromItsInside)
+{
+	const TileGrid grid = plainGrid();
+	const std::array layers{covered(grid, window(-0.5, 0.5, 0.3, -0.3))};
+	std::map<Cover, int> pixels;
+	for (const TileDraw &draw : planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, layers))
+		for (const PixelRect &rect : draw.rects) {
+			pixels[draw.cover] += rect.width() * rect.height();
+			EXPECT_EQ(draw.layer, draw.cover == Cover::none ? -1 : 0);
+		}
+	EXPECT_GT(pixels[Cover::none], 0);
+	EXPECT_GT(pixels[Cover::partly], 0);
+	EXPECT_GT(pixels[Cover::fully], 0);
+	EXPECT_EQ(pixels[Cover::opaque], 0);
 }
 
 TEST(PlanDraws, addedLightComesLast)
 {
 	const TileGrid grid = plainGrid();
-	const PlannedLayer everywhere{coverage(grid, window(-2, 2, 2, -2)), false};
+	const std::vector<Cover> everywhere = covered(grid, window(-2, 2, 2, -2));
 	const std::array layers{everywhere, everywhere, everywhere};
 	const auto draws = planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ADDITIVE, layers);
 	std::vector<std::pair<Blend, int>> order;
@@ -108,7 +146,7 @@ TEST(PlanDraws, theCameraIsAskedOnlyWhereItSees)
 	const TileGrid grid = plainGrid();
 	std::vector<bool> seen(size_t(grid.rows() * grid.columns()));
 	for (size_t i = 0; i < seen.size(); ++i) seen[i] = int(i) % grid.columns() < 5;
-	const std::array layers{PlannedLayer{coverage(grid, window(-2, 2, 2, -2)), false}};
+	const std::array layers{covered(grid, window(-2, 2, 2, -2))};
 	for (const TileDraw &draw : planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, layers, seen))
 		for (const PixelRect &rect : draw.rects)
 			EXPECT_EQ(draw.behind, rect.x0 < 5 * TileGrid::tileWidth ? Behind::camera : Behind::unseen);
