@@ -2,6 +2,8 @@
 #pragma once
 #include "runtime/base/clock.h"
 #include "runtime/ipc/socket.h"
+#include <algorithm>
+#include <functional>
 #include <mutex>
 #include <string>
 
@@ -36,8 +38,10 @@ public:
 	explicit Requests(Socket socket) : socket_(std::move(socket)) {}
 
 	/// Sends `request` with a new sequence number and waits until its reply is there, at most `limit` of real time.
-	/// A reply that comes after its request has timed out is dropped when it comes.
-	template <typename Reply, typename Request> Answer<Reply> ask(Request request, XrDuration limit, std::span<const int> fds = {})
+	/// A reply that comes after its request has timed out is dropped when it comes. `isWorthWaiting` is asked now and then meanwhile: false
+	/// is a time-out at once.
+	template <typename Reply, typename Request>
+	Answer<Reply> ask(Request request, XrDuration limit, std::span<const int> fds = {}, const std::function<bool()> &isWorthWaiting = {})
 	{
 		std::lock_guard lock(mutex_);
 		const XrTime deadline = realTime() + limit;
@@ -46,7 +50,8 @@ public:
 		Received received;
 		Transfer transfer = socket_.send(request, fds, deadline);
 		while (transfer == Transfer::done) {
-			transfer = socket_.receive(received, deadline);
+			do transfer = socket_.receive(received, std::min(deadline, realTime() + lookAround));
+			while (transfer == Transfer::timeout && realTime() < deadline && (!isWorthWaiting || isWorthWaiting()));
 			if (transfer != Transfer::done) break;
 			const auto header = received.header();
 			if (!header || header->sequence != sequence_) continue;
@@ -76,6 +81,7 @@ public:
 	void hangUp() { socket_.hangUp(); }
 
 private:
+	static constexpr XrDuration lookAround = 100 * millisecond; ///< real time
 	std::mutex mutex_;
 	Socket socket_;
 	uint32_t sequence_ = 0;

@@ -19,8 +19,9 @@ public:
 	static constexpr XrDuration silenceLimit = 2 * second;
 	/// … and neither within so long after somebody noticed: several beats.
 	static constexpr XrDuration secondLook = 300 * millisecond;
-	/// How long a request may take (real time). A software renderer allocates and clears images in it.
-	static constexpr XrDuration requestLimit = 5 * second;
+	/// How long a request may take (real time) of a service that lives. On a busy machine a software renderer takes its time to allocate and
+	/// clear images; one that hangs is noticed by its silence long before.
+	static constexpr XrDuration requestLimit = 30 * second;
 	/// The first session may come while the service is still opening its devices: its own reason comes before this limit.
 	static constexpr XrDuration openingLimit = ipc::openingLimit + 5 * second;
 
@@ -43,7 +44,7 @@ public:
 	template <typename Reply, typename Request> ipc::Answer<Reply> ask(const Request &request, XrDuration limit = requestLimit)
 	{
 		requireAlive();
-		auto answer = requests_->ask<Reply>(request, limit);
+		auto answer = requests_->ask<Reply>(request, limit, {}, [this] { return !isLost(); });
 		if (answer.how == ipc::Answered::hungUp) lose("it has gone away");
 		if (answer.how == ipc::Answered::timeout) lose("it did not answer in time");
 		requireAlive();

@@ -199,6 +199,16 @@ TEST_F(DyingService, EndsARequest)
 	expectTheEndOf([&] { swapchain(running); });
 }
 
+TEST_F(DyingService, ItsSilenceEndsARequestLongBeforeTheLimit)
+{
+	Session &running = session();
+	service.stopAnswering();
+	service.stopHeart();
+	const XrTime asked = realTime();
+	EXPECT_EQ(resultOf([&] { swapchain(running); }), XR_ERROR_INSTANCE_LOST);
+	EXPECT_LT(realTime() - asked, Service::requestLimit / 2);
+}
+
 TEST_F(FakeSession, ALostDeviceEndsTheSession)
 {
 	Session &running = session();
