@@ -46,7 +46,7 @@ function(arift_test name)
   target_link_libraries(test_${name} PRIVATE arift_options ${TEST_USES} GTest::gtest GTest::gtest_main)
   target_precompile_headers(test_${name} REUSE_FROM arift_gtest_headers)
   arift_keep_vulkan_loaded(test_${name})
-  if(ARIFT_SANITIZE AND "release" IN_LIST TEST_LABELS)
+  if(ARIFT_SANITIZE AND ("release" IN_LIST TEST_LABELS OR "long" IN_LIST TEST_LABELS))
     # Nothing to run here; it can be built, and clang-tidy reads it.
     set_target_properties(test_${name} PROPERTIES EXCLUDE_FROM_ALL ON)
     return()
@@ -78,6 +78,9 @@ function(arift_drawing_program name)
   add_executable(${name} ${PROGRAM_SOURCES})
   target_link_libraries(${name} PRIVATE arift_drawing_application)
   arift_keep_vulkan_loaded(${name})
+  if(ARIFT_SANITIZE)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON) # built where a test that is built needs it
+  endif()
 endfunction()
 
 # A Google Benchmark program; run by tools/test.sh, which prints its figures.

@@ -68,7 +68,7 @@ void Compositor::Loop::latchLayers(Frame &frame, Latched &latched) const
 				if (isGone(layer.projection[eye])) layer.projection[eye].reset();
 				if (isGone(layer.quad[eye])) layer.quad[eye].reset();
 			}
-			latched.layers.push_back(std::move(layer));
+			latched.layers.push_back(layer);
 		}
 	}
 }
@@ -198,7 +198,7 @@ bool Compositor::Loop::frame(const Pacer::Refresh &refresh)
 	return frame.result.outcome == Presented::shown;
 }
 
-void Compositor::Loop::run(std::stop_token stop)
+void Compositor::Loop::run(const std::stop_token &stop)
 {
 	Clock &clock = surroundings_.clock;
 	End end;

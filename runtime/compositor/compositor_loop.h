@@ -44,7 +44,7 @@ public:
 	Guarded<Inbox> inbox{};
 	Guarded<Report> report{};
 
-	void run(std::stop_token stop);
+	void run(const std::stop_token &stop);
 
 private:
 	using Sources = std::vector<std::shared_ptr<FrameSource>>;

@@ -105,7 +105,7 @@ fs::path findService()
 	if (const char *named = std::getenv("ARIFT_SERVICE"); named && *named) return isExecutable(named) ? fs::path(named) : fs::path();
 	if (const fs::path own = ownFile(); !own.empty()) {
 		for (fs::path folder = own.parent_path(); folder.has_relative_path(); folder = folder.parent_path())
-			if (const fs::path beside = folder / "bin/arift-service"; isExecutable(beside)) return beside;
+			if (fs::path beside = folder / "bin/arift-service"; isExecutable(beside)) return beside;
 	}
 	std::istringstream path(std::getenv("PATH") ? std::getenv("PATH") : "/usr/local/bin:/usr/bin");
 	for (std::string folder; std::getline(path, folder, ':');)

@@ -39,7 +39,7 @@ private:
 };
 
 struct Application {
-	explicit Application(std::vector<const char *> extensions = {}, XrVersion version = XR_API_VERSION_1_1)
+	explicit Application(const std::vector<const char *> &extensions = {}, XrVersion version = XR_API_VERSION_1_1)
 		: created(create(extensions, version))
 	{
 	}

@@ -44,7 +44,7 @@ ipc::Welcome FakeService::usualWelcome()
 	return welcome;
 }
 
-FakeService::FakeService(ipc::Welcome welcome, MakeImages makeImages) : welcome_(std::move(welcome)), makeImages_(std::move(makeImages))
+FakeService::FakeService(const ipc::Welcome &welcome, MakeImages makeImages) : welcome_(welcome), makeImages_(std::move(makeImages))
 {
 	::setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
 	::setenv("ARIFT_SERVICE", "/nonexistent", 1); // nothing but this service may answer

@@ -21,7 +21,7 @@ public:
 	using MakeImages = std::function<std::vector<UniqueFd>(const ipc::CreateSwapchain &, ipc::SwapchainCreated &)>;
 
 	/// Listens in a runtime directory of its own, which the environment of this process names from now on.
-	explicit FakeService(ipc::Welcome welcome = usualWelcome(), MakeImages makeImages = {});
+	explicit FakeService(const ipc::Welcome &welcome = usualWelcome(), MakeImages makeImages = {});
 	~FakeService();
 	FakeService(const FakeService &) = delete;
 
