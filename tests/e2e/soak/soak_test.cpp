@@ -1,0 +1,181 @@
+// Long runs: what is used stays used, what was fast stays fast, the world never goes dark.
+#include "tests/e2e/common/marked_world.h"
+#include "tests/e2e/common/process_usage.h"
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace arift::e2e
+{
+namespace
+{
+
+XrDuration durationOr(XrDuration usual)
+{
+	const char *seconds = std::getenv("ARIFT_SOAK_SECONDS");
+	return seconds && *seconds ? std::atol(seconds) * second : usual;
+}
+
+void sleep(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+nlohmann::json clientNamed(const nlohmann::json &status, const std::string &name)
+{
+	for (const auto &client : status["clients"])
+		if (client["name"] == name) return client;
+	return {};
+}
+
+/// One part of a run: what the service and an application that stays did in it.
+struct Window {
+	double framesPerSecond = 0; ///< of the system's clock
+	double composeMs = 0, latencyMs = 0, cpuMsPerFrame = 0;
+	double shownPerFrame = 0;          ///< frames of the application per panel image
+	ProcessUsage service, application; ///< the least of each seen in it
+};
+
+ProcessUsage least(const ProcessUsage &a, const ProcessUsage &b)
+{
+	return {std::min(a.descriptors, b.descriptors), std::min(a.mappings, b.mappings), std::min(a.threads, b.threads),
+			std::min(a.residentMiB, b.residentMiB)};
+}
+
+/// Measures windows one after another of a service and of the application that is called `name`.
+class Watch
+{
+public:
+	Watch(PrivateService &service, std::string name, int pid) : service_(service), name_(std::move(name)), pid_(pid) {}
+
+	/// A window of so many seconds (real time), in which `act` is called about once a second.
+	template <typename Act> Window window(double seconds, Act act)
+	{
+		Window window;
+		const auto before = clientNamed(service_.status(true), name_);
+		window.service = usageOf(service_.process().pid());
+		window.application = usageOf(pid_);
+		for (const XrTime end = realTime() + fromSeconds(seconds); realTime() < end;) {
+			act();
+			window.service = least(window.service, usageOf(service_.process().pid()));
+			window.application = least(window.application, usageOf(pid_));
+		}
+		const auto status = service_.status();
+		const auto &frames = status["frames"], after = clientNamed(status, name_);
+		EXPECT_FALSE(after.is_null()) << name_ << " has gone";
+		EXPECT_EQ(frames["withoutCamera"], 0);
+		if (after.is_null()) return window;
+		window.framesPerSecond = frames["perSecond"];
+		window.composeMs = frames["composeMs"]["median"];
+		window.cpuMsPerFrame = frames["cpuMsPerFrame"];
+		window.latencyMs = after["latencyMs"]["median"];
+		window.shownPerFrame = double(after["shown"].get<uint64_t>() - before["shown"].get<uint64_t>()) / frames["shown"].get<double>();
+		fmt::print(stderr,
+				   "[ FIGURE   ] {:5.0f} s: {:.2f} frames per second, {:.3f} of them new by {}, composing {:.1f} ms, {:.1f} ms of CPU, "
+				   "seen {:.1f} "
+				   "ms after they came; service {}; application {}\n",
+				   inSeconds(realTime() - begun_), window.framesPerSecond, window.shownPerFrame, name_, window.composeMs,
+				   window.cpuMsPerFrame, window.latencyMs, describe(window.service), describe(window.application));
+		return window;
+	}
+
+private:
+	PrivateService &service_;
+	const std::string name_;
+	const int pid_;
+	const XrTime begun_ = realTime();
+};
+
+void expectFlat(const ProcessUsage &first, const ProcessUsage &last, const char *whose)
+{
+	EXPECT_LE(last.descriptors, first.descriptors) << whose;
+	EXPECT_LE(last.threads, first.threads) << whose;
+	EXPECT_LE(last.mappings, first.mappings + 4) << whose << ": an allocator may take another arena";
+	EXPECT_LE(last.residentMiB, first.residentMiB + 2) << whose;
+}
+
+TEST(Soak, FourApplicationsOfWhichThreeMisbehave)
+{
+	constexpr int windows = 6;
+	const double seconds = inSeconds(durationOr(600 * second)) / windows;
+	const double rate = affordableRate(0.2, [](PrivateService &service) {
+		std::vector<ChildProcess> one;
+		one.push_back(service.start("clearing_application", {"transparent", "0"}));
+		return one;
+	});
+	PrivateService service(markedWorld(rate));
+	ChildProcess steady = service.start("clearing_application", {"transparent", "0"});
+	ASSERT_TRUE(eventually(service, [](const auto &status) { return submittedIn(status) > 30; })) << steady.output();
+	Watch watch(service, "clearing_application", steady.pid());
+	const Window alone = watch.window(seconds, [] { sleep(1); });
+
+	const ChildProcess one = service.start("stopping_application", {"after xrBeginFrame", "5"}),
+					   other = service.start("stopping_application", {"image released", "5"});
+	ASSERT_TRUE(eventually(service, [](const auto &status) { return status["clients"].size() == 3; }));
+	std::optional<ChildProcess> killed;
+	int kills = 0;
+	const auto act = [&] {
+		if (killed) {
+			::kill(killed->pid(), SIGKILL);
+			killed->wait(std::chrono::seconds(10));
+			++kills;
+		}
+		killed.reset();
+		killed.emplace(service.start("stopping_application", {"never", "0"}));
+		sleep(1);
+		if (kills % 5 == 0) expectTheWorld(service, fmt::format("after {} kills", kills));
+	};
+	Window first, last;
+	for (int i = 1; i < windows; ++i) {
+		last = watch.window(seconds, act);
+		if (i == 1) first = last;
+		EXPECT_GE(last.shownPerFrame, 0.9 * alone.shownPerFrame) << "the fourth keeps its frame rate";
+		EXPECT_GE(last.framesPerSecond, 0.9 * alone.framesPerSecond) << "and so does the panel";
+	}
+	fmt::print(stderr, "[ FIGURE   ] {} kills\n", kills);
+	EXPECT_GT(kills, windows);
+	expectFlat(first.service, last.service, "the service");
+	expectFlat(first.application, last.application, "the application that behaves");
+}
+
+/// Everything: two applications that draw, live cameras, pictures, settings, recentring.
+TEST(Soak, EverythingForAnHour)
+{
+	const double seconds = inSeconds(durationOr(3600 * second)), part = std::min(60.0, seconds / 4);
+	const double rate = affordableRate(0.4, [](PrivateService &service) {
+		std::vector<ChildProcess> both;
+		both.push_back(service.start("clearing_application", {"translucent", "4"}));
+		both.push_back(service.start("hologram_cube", {}));
+		return both;
+	});
+	PrivateService service(markedWorld(rate));
+	ChildProcess clearing = service.start("clearing_application", {"translucent", "4"});
+	const ChildProcess cube = service.start("hologram_cube", {});
+	ASSERT_TRUE(eventually(service, [](const auto &status) { return submittedIn(status) > 60; })) << clearing.output() << cube.output();
+	Watch watch(service, "clearing_application", clearing.pid());
+	int acts = 0;
+	const auto act = [&] {
+		service.recenter();
+		service.set(ipc::Setting::viewOffset, float(acts % 2));
+		service.set(ipc::Setting::rawPassthrough, acts % 10 == 9 ? 1 : 0);
+		if (acts % 10 == 5) service.screenshot(acts % 20 == 5 ? ipc::PictureKind::panel : ipc::PictureKind::eyes);
+		++acts;
+		sleep(1);
+	};
+	watch.window(part / 2, act); // caches fill
+	const Window first = watch.window(part, act);
+	Window last = first;
+	for (double gone = part; gone + part <= seconds; gone += part) {
+		last = watch.window(part, act);
+		EXPECT_NEAR(last.framesPerSecond, first.framesPerSecond, 0.02 * first.framesPerSecond);
+		EXPECT_NEAR(last.shownPerFrame, first.shownPerFrame, 0.02 * first.shownPerFrame);
+	}
+	expectFlat(first.service, last.service, "the service");
+	expectFlat(first.application, last.application, "an application");
+	EXPECT_LE(last.latencyMs, 1.1 * first.latencyMs + 1);
+	EXPECT_LE(last.composeMs, 1.1 * first.composeMs + 1);
+}
+
+} // namespace
+} // namespace arift::e2e
