@@ -8,8 +8,8 @@ namespace arift
 namespace
 {
 
-/// One of so many intervals, the longest, says nothing of those to come: a machine that stood still for a moment.
-constexpr size_t perOutlier = 8;
+/// The longest of several intervals says nothing of those to come: a machine that stood still for a moment.
+constexpr size_t several = 8;
 /// Refreshes for an image up to which it counts as one.
 constexpr double hardly = 1.25;
 
@@ -24,7 +24,7 @@ void Pace::offer(XrTime display, XrDuration refresh)
 
 XrDuration Pace::period() const
 {
-	const size_t size = std::min(count_, kept), usual = size - size / perOutlier;
+	const size_t size = std::min(count_, kept), usual = size - (size >= several ? 1 : 0);
 	if (usual == 0) return refresh_;
 	std::array<XrDuration, kept> sorted = intervals_;
 	std::sort(sorted.begin(), sorted.begin() + ptrdiff_t(size));

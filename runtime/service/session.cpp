@@ -77,6 +77,7 @@ void Session::wake(const Opportunity &opportunity)
 	Afterwards afterwards;
 	state_.update([&](State &state) {
 		state.current = opportunity;
+		state.offeredAt = clock_.now();
 		state.pace.offer(opportunity.displayTime, opportunity.period);
 		if (!state.waiting || opportunity.displayTime <= state.answered) return;
 		afterwards.ready = answer(state);
@@ -119,6 +120,14 @@ Figure Session::latency()
 	return figureOf({latencies.values.begin(), latencies.values.begin() + ptrdiff_t(count)});
 }
 
+/// What is drawn for the newest opportunity can still come until then. A compositor that is slower than the panel takes what there is when
+/// it has made the image that it is at, which lasts about as long as those before, however long it was hoped to last.
+XrTime Session::latchOf(const State &state)
+{
+	const XrDuration pace = state.pace.period();
+	return pace > state.current.period ? std::max(state.current.latch, state.offeredAt + pace) : state.current.latch;
+}
+
 void Session::take(const ipc::WaitFrame &message)
 {
 	const XrTime now = clock_.now();
@@ -128,7 +137,7 @@ void Session::take(const ipc::WaitFrame &message)
 		state.waiting = true;
 		state.announced = message.header.sequence;
 		// An application slower than the display need not wait for the next wake when there is still time for the newest opportunity.
-		const bool inTime = state.current.displayTime > state.answered && now + state.current.period / 4 < state.current.latch;
+		const bool inTime = state.current.displayTime > state.answered && now + state.current.period / 4 < latchOf(state);
 		if (!stepped && inTime) afterwards.ready = answer(state);
 		releaseIfComplete(state, afterwards);
 	});

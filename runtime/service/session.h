@@ -70,7 +70,8 @@ private:
 		uint64_t relinquished = 0; ///< submissions up to this one are not to be shown any more
 		uint64_t shown = 0, newestShown = 0;
 		std::shared_ptr<const FrameContent> newest;
-		Opportunity current; ///< the newest one the compositor announced
+		Opportunity current;  ///< the newest one the compositor announced
+		XrTime offeredAt = 0; ///< when it was
 		Pace pace;
 		XrTime answered = 0; ///< display time of the newest FrameReady
 		std::optional<Clock::Hold> hold;
@@ -91,6 +92,7 @@ private:
 	void finish(Afterwards &afterwards);
 	static void releaseIfComplete(State &state, Afterwards &afterwards);
 	static ipc::FrameReady answer(State &state);
+	static XrTime latchOf(const State &state);
 
 	const uint32_t number_;
 	Clock &clock_;

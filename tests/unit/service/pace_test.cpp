@@ -29,8 +29,8 @@ TEST(Pace, IsThePanelsWhileHardlyARefreshIsMissed)
 TEST(Pace, IsTheCompositorsWhereThatIsSlower)
 {
 	EXPECT_EQ(periodAfter({3}, 100), 3 * refresh);
-	// Two and three in turn: 16 twos and 12 threes are left when the longest are taken away.
-	EXPECT_EQ(periodAfter({2, 3}, 100), (16 * 2 + 12 * 3) * refresh / 28);
+	// Two and three in turn: 16 twos and 15 threes are left when the longest is taken away.
+	EXPECT_EQ(periodAfter({2, 3}, 100), (16 * 2 + 15 * 3) * refresh / 31);
 }
 
 TEST(Pace, ForgetsAMomentOfStandstill) { EXPECT_EQ(periodAfter({1, 1, 1, 1, 1, 1, 1, 1, 1, 200}, 10), refresh); }

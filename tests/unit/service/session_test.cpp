@@ -121,6 +121,19 @@ TEST_F(SessionTest, AnApplicationSlowerThanTheDisplayGetsWhatIsStillInTime)
 	EXPECT_EQ(answer->predictedDisplayTime, display);
 }
 
+TEST_F(SessionTest, ASlowCompositorsPaceIsToldAndLeavesAsMuchTime)
+{
+	constexpr XrDuration pace = 1000 * period; // longer than any pause of this test
+	XrTime display = realTime();
+	// Each time it hopes to be ready at once.
+	for (int i = 0; i < 10; ++i) session_.wake({display += pace, period, realTime()});
+	waitFrame(0);
+	const auto frame = ready();
+	ASSERT_TRUE(frame) << "there is a whole image's time left";
+	EXPECT_EQ(frame->predictedDisplayTime, display);
+	EXPECT_EQ(frame->predictedDisplayPeriod, pace);
+}
+
 TEST_F(SessionTest, TheNewestSubmissionIsShownAndOlderImagesAreFree)
 {
 	submit(1);
