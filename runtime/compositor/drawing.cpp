@@ -36,6 +36,13 @@ PipelineKey backdropOf(const CameraView *camera, bool throughLens)
 	return {.background = Background::camera, .camera = camera->lens, .encoded = !camera->linear, .throughLens = throughLens};
 }
 
+/// Pictures for people are rare: they have no pipelines of their own for what lies wholly inside a layer.
+void blendEverywhere(std::vector<Cover> &cover)
+{
+	std::ranges::replace_if(
+		cover, [](Cover tile) { return tile != Cover::none; }, Cover::partly);
+}
+
 void addRect(Drawing &drawing, const PixelRect &rect)
 {
 	const auto x0 = int16_t(rect.x0), y0 = int16_t(rect.y0), x1 = int16_t(rect.x1), y1 = int16_t(rect.y1);
@@ -89,6 +96,7 @@ private:
 		// Half a texel within the edge, what lies beyond it would be mixed in.
 		const glm::dvec2 border(0.5 / texture.rect.extent.width, 0.5 / texture.rect.extent.height);
 		covers_[index] = coverage(draw_.grid, *matrices, border, contentOf(texture, image->occupancy, isOpaque(layer)));
+		if (!draw_.geometry.throughLens) blendEverywhere(covers_[index]);
 		encoded_[index] = gpu::storedFormat(VkFormat(image->spec->format)) != VkFormat(image->spec->format);
 		blocks_[index] = uint32_t(drawing_.layerBlocks.size());
 		for (uint32_t band = 0; band < bandCount; ++band)

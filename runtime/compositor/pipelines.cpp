@@ -169,14 +169,15 @@ std::vector<PipelineKey> everyKey(const PanelOptics &optics)
 	for (const bool throughLens : {true, false}) {
 		for (PipelineKey key : backdrops(optics, throughLens)) {
 			keys.push_back(key);
-			addLayers(keys, key, {Cover::partly, Cover::fully});
+			if (throughLens) addLayers(keys, key, {Cover::fully});
 			key.blend = Blend::add;
 			keys.push_back(key);
 		}
 		keys.push_back({.throughLens = throughLens});
-		addLayers(keys, {.throughLens = throughLens}, {Cover::partly, Cover::fully, Cover::opaque});
-		addLayers(keys, {.blend = Blend::over, .throughLens = throughLens}, {Cover::partly, Cover::fully});
+		addLayers(keys, {.blend = Blend::over, .throughLens = throughLens}, {Cover::partly});
 	}
+	addLayers(keys, {}, {Cover::fully, Cover::opaque});
+	addLayers(keys, {.blend = Blend::over}, {Cover::fully});
 	return keys;
 }
 

@@ -182,19 +182,21 @@ std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode ble
 			}
 			here.push_back(int(i));
 		}
+		// What a layer covers wholly is drawn with what is behind it in one pass; at its edges it is blended over it.
+		const bool together = !here.empty() && layers[size_t(here.front())][index] != Cover::partly;
 		// Light is added to the finished picture of the layers: with one layer in the same pass, with more after them.
-		const bool later = additive && here.size() > 1;
+		const bool later = additive && here.size() > size_t(together);
 		const uint32_t band = grid.bandOf(row);
 		const Behind behind = seen.empty() || seen[index] ? Behind::camera : Behind::unseen;
 		const auto addLayer = [&](Blend blend, Behind under, int layer) {
 			plan.add(blend, under, layer, layers[size_t(layer)][index], band, rect);
 		};
 		const Behind under = backdrop && !later ? behind : Behind::nothing;
-		if (here.empty())
-			plan.add(Blend::replace, under, -1, Cover::none, band, rect);
-		else
+		if (together)
 			addLayer(Blend::replace, under, here.front());
-		for (size_t i = 1; i < here.size(); ++i) addLayer(Blend::over, Behind::nothing, here[i]);
+		else
+			plan.add(Blend::replace, under, -1, Cover::none, band, rect);
+		for (size_t i = together ? 1 : 0; i < here.size(); ++i) addLayer(Blend::over, Behind::nothing, here[i]);
 		if (later) plan.add(Blend::add, behind, -1, Cover::none, band, rect);
 	};
 	for (int row = 0; row < grid.rows(); ++row)
