@@ -89,6 +89,7 @@ void Service::open()
 {
 	try {
 		system_ = std::make_unique<System>(world_);
+		system_->announce();
 	} catch (const std::exception &problem) {
 		fail(problem.what(), false);
 	}

@@ -146,7 +146,7 @@ bool System::followHeadset()
 	return true;
 }
 
-void System::compose(std::shared_ptr<Composition> composition)
+void System::compose(const std::shared_ptr<Composition> &composition)
 {
 	CameraFeed *const right = &feeds_[rig_.cameras.size() == 1 ? 0 : 1]; // the only camera's images and timing are those of both eyes
 	composition->start({world_.clock,
@@ -158,6 +158,11 @@ void System::compose(std::shared_ptr<Composition> composition)
 						realtimeFor("compositor")});
 	composedSince_ = realTime();
 	*composition_.lock() = composition;
+}
+
+void System::announce()
+{
+	const auto composition = *composition_.lock();
 	world_.opened.update([&](Opened &opened) {
 		opened.stage = Stage::ready;
 		opened.device = {composition, &composition->device()};
@@ -176,9 +181,10 @@ void System::recompose(const std::string &problem, const std::stop_token &stop)
 		if (++failures_ > mostFailures) throw std::runtime_error(fmt::format("given up after {} attempts: {}", mostFailures, last));
 		if (failures_ > 1 && !clock->sleepUntil(realTime() + backOff.next(), stop)) return;
 		try {
-			auto composition = makeComposition(true);
+			const auto composition = makeComposition(true);
 			composition->makeRenderer();
-			compose(std::move(composition));
+			compose(composition);
+			announce();
 			log::info("images are made again");
 			return;
 		} catch (const std::exception &next) {

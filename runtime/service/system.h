@@ -10,8 +10,11 @@ namespace arift
 class System
 {
 public:
-	/// Opens everything, telling `world.opened` of every stage. Throws InputError or std::runtime_error with a sentence for the user.
+	/// Opens everything, telling `world.opened` of every stage but the last. Throws InputError or std::runtime_error with a sentence for
+	/// the user.
 	explicit System(World &world);
+	/// Tells `world.opened` of the last: from here on others may call it, so its owner must hold it already.
+	void announce();
 	System(const System &) = delete;
 	~System();
 
@@ -25,7 +28,7 @@ public:
 private:
 	void identify(const gpu::DeviceIdentity &gpu);
 	void tellHeadset();
-	void compose(std::shared_ptr<Composition> composition);
+	void compose(const std::shared_ptr<Composition> &composition);
 	std::shared_ptr<Composition> makeComposition(bool again);
 	std::function<void()> realtimeFor(const char *thread);
 	void describe(nlohmann::json &status);
