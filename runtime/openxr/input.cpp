@@ -52,7 +52,7 @@ size_t Input::slotFor(State &state, const ActionCore &action, XrPath subactionPa
 {
 	for (size_t i = 0; i < state.slots.size(); ++i)
 		if (state.slots[i].action == &action && state.slots[i].subactionPath == subactionPath) return i;
-	state.slots.push_back({&action, subactionPath, {}, {}});
+	state.slots.push_back({&action, subactionPath, {}, {}, XR_NULL_PATH});
 	return state.slots.size() - 1;
 }
 
@@ -137,7 +137,10 @@ void Input::read(State &state, Bound &bound)
 	const bool isPose = binding.type == XR_ACTION_TYPE_POSE_INPUT;
 	const std::optional<Placed> place = !isPose ? std::nullopt : whole ? whole->place : device.place;
 	merge(state.slots[bound.own].now, value, place);
-	merge(state.slots[bound.all].now, value, place);
+	// "Action Spaces": of several devices one is picked, and it stays that one.
+	Slot &all = state.slots[bound.all];
+	if (place && all.placedBy == XR_NULL_PATH) all.placedBy = binding.user;
+	merge(all.now, value, all.placedBy == binding.user ? place : std::nullopt);
 }
 
 bool Input::synchronize(std::span<const ActiveSet> active, XrTime now)

@@ -59,6 +59,7 @@ private:
 		const ActionCore *action;
 		XrPath subactionPath;
 		ActionResult now, before;
+		XrPath placedBy = XR_NULL_PATH; ///< whose device places a pose: the first that did, for good
 	};
 	struct Bound {
 		Binding binding;

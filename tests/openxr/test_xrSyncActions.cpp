@@ -198,6 +198,51 @@ TEST_F(Actions, NumbersAndVectorsAndPoses)
 	EXPECT_EQ(location.locationFlags, 0u);
 }
 
+TEST_F(Actions, ADeviceIsSomewhereUntilItIsPlaced)
+{
+	const XrActionSet set = actionSet("game");
+	const XrAction grip = action(set, "grip", XR_ACTION_TYPE_POSE_INPUT), surface = action(set, "surface", XR_ACTION_TYPE_POSE_INPUT);
+	suggest({{grip, application.path("/user/hand/left/input/grip/pose")},
+			 {surface, application.path("/user/hand/left/input/grip_surface/pose")}});
+	attach({set});
+	setActive(left, true);
+	ASSERT_EQ(sync({{set, XR_NULL_PATH}}), XR_SUCCESS);
+	XrSpace spaces[2]{};
+	for (int i = 0; i < 2; ++i) {
+		const XrActionSpaceCreateInfo info{XR_TYPE_ACTION_SPACE_CREATE_INFO, nullptr, i ? surface : grip, left, identityPose};
+		ASSERT_EQ(get<PFN_xrCreateActionSpace>("xrCreateActionSpace")(session, &info, &spaces[i]), XR_SUCCESS);
+	}
+	XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
+	ASSERT_EQ(get<PFN_xrLocateSpace>("xrLocateSpace")(spaces[1], spaces[0], realTime(), &location), XR_SUCCESS);
+	EXPECT_EQ(location.locationFlags, 15u);
+	EXPECT_NEAR(rotate(location.pose.orientation, {0, 1, 0}).z, -0.7071f, 1e-4f) << "the back of the hand leans forward";
+	EXPECT_NEAR(length(location.pose.position), 0, 1e-6f);
+}
+
+TEST_F(Actions, ASpaceOfBothHandsStaysWithTheOneItBeganWith)
+{
+	const XrActionSet set = actionSet("game");
+	const XrAction grip = action(set, "grip", XR_ACTION_TYPE_POSE_INPUT);
+	suggest({{grip, application.path("/user/hand/left/input/grip/pose")}, {grip, application.path("/user/hand/right/input/grip/pose")}});
+	attach({set});
+	const XrActionSpaceCreateInfo info{XR_TYPE_ACTION_SPACE_CREATE_INFO, nullptr, grip, XR_NULL_PATH, identityPose};
+	XrSpace space = XR_NULL_HANDLE;
+	ASSERT_EQ(get<PFN_xrCreateActionSpace>("xrCreateActionSpace")(session, &info, &space), XR_SUCCESS);
+	const XrSpace local = application.space(session, XR_REFERENCE_SPACE_TYPE_LOCAL);
+	const auto whereWith = [&](bool leftThere, bool rightThere) {
+		setActive(left, leftThere);
+		setActive(right, rightThere);
+		EXPECT_EQ(sync({{set, XR_NULL_PATH}}), XR_SUCCESS);
+		XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
+		EXPECT_EQ(get<PFN_xrLocateSpace>("xrLocateSpace")(space, local, realTime(), &location), XR_SUCCESS);
+		return location.locationFlags ? location.pose.position.x : 0;
+	};
+	EXPECT_GT(whereWith(false, true), 0) << "the right hand";
+	EXPECT_GT(whereWith(true, true), 0);
+	EXPECT_EQ(whereWith(true, false), 0) << "nowhere";
+	EXPECT_GT(whereWith(true, true), 0);
+}
+
 TEST_F(Actions, WhatIsBoundHasANameForPeople)
 {
 	const XrActionSet set = actionSet("game");

@@ -30,6 +30,14 @@ Placed usualPlace(std::string_view user)
 	return {SpaceKind::local, {identityOrientation, {aside, -0.3f, -0.4f}}};
 }
 
+/// What lies on the surface of a device that is held: turned against the grip as on usual controllers.
+Placed onSurface(Placed grip)
+{
+	constexpr float sine = -0.3826834f, cosine = 0.9238795f; // 45 degrees about x, half
+	grip.pose.orientation = {sine, 0, 0, cosine};
+	return grip;
+}
+
 } // namespace
 
 void setInputDeviceActive(Session &session, XrPath interactionProfile, XrPath topLevelPath, XrBool32 isActive)
@@ -38,11 +46,15 @@ void setInputDeviceActive(Session &session, XrPath interactionProfile, XrPath to
 	const std::string &name = session.instance.paths.text(interactionProfile);
 	if (!findInteractionProfile(name, session.instance.features()))
 		throw Error(XR_ERROR_PATH_UNSUPPORTED, "{} is no interaction profile of this runtime", name);
+	const std::string &user = session.instance.paths.text(topLevelPath);
+	const Placed place = usualPlace(user);
 	session.input.changeDevices([&](InputDevices &devices) {
 		InputDevice &device = devices[topLevelPath];
 		device.profile = interactionProfile;
 		device.isActive = isActive == XR_TRUE;
-		device.place = usualPlace(session.instance.paths.text(topLevelPath));
+		device.place = place;
+		for (const char *surface : {"/input/grip_surface/pose", "/input/palm_ext/pose"})
+			device.values.try_emplace(session.instance.paths.atom(user + surface), InputValue{{}, onSurface(place)});
 	});
 }
 
