@@ -81,12 +81,16 @@ TEST(Coverage, aBorderWithinTheImageIsNotItsInside)
 	};
 	const auto none = within(0), some = within(0.2);
 	int fewer = 0;
-	for (size_t i = 0; i < none.size(); ++i) {
-		if (none[i] == some[i]) continue;
-		++fewer;
-		EXPECT_EQ(none[i], Cover::fully);
-		EXPECT_EQ(some[i], Cover::partly);
-	}
+	for (int row = 0; row < grid.rows(); ++row)
+		for (int column = 0; column < grid.columns(); ++column) {
+			const size_t i = size_t(row * grid.columns() + column);
+			fewer += none[i] != some[i];
+			if (some[i] != Cover::fully) continue;
+			for (const glm::dvec2 t : {grid.corner(column, row), grid.corner(column + 1, row + 1)}) {
+				EXPECT_LT(std::abs(t.x / 1.6), 0.5 - 0.2);
+				EXPECT_LT(std::abs(t.y / 1.2), 0.5 - 0.2);
+			}
+		}
 	EXPECT_GT(fewer, 20);
 }
 
