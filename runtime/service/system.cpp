@@ -184,8 +184,8 @@ void System::recompose(const std::string &problem, const std::stop_token &stop)
 			const auto composition = makeComposition(true);
 			composition->makeRenderer();
 			compose(composition);
-			announce();
 			log::info("images are made again");
+			announce();
 			return;
 		} catch (const std::exception &next) {
 			last = next.what();
