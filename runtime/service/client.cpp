@@ -138,17 +138,21 @@ void Client::answer(const ipc::CreateSession &message)
 	created.sharing = sharing_;
 	const std::vector<int64_t> formats = gpu::swapchainFormats(*device_);
 	for (size_t i = 0; i < std::min(formats.size(), created.formats.size()); ++i) created.formats[i] = int32_t(formats[i]);
-	std::vector<int> fds{theirs.fd()};
-	gpu::MemoryProbe probe;
 	// Two software devices may say the same of themselves and be of two builds.
-	if (sharing_ == ipc::Sharing::memory && !message.headless && device_->identity().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU) {
-		probe = gpu::makeMemoryProbe(*device_);
-		created.probeSize = probe.size;
-		created.probeTypeIndex = probe.typeIndex;
-		created.probePattern = probe.pattern;
-		fds.push_back(probe.memory.get());
-	}
-	reply(message.header, created, fds);
+	const bool isToBeProbed =
+		sharing_ == ipc::Sharing::memory && !message.headless && device_->identity().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+	const UniqueFd probe = isToBeProbed ? offerProbe(created) : UniqueFd();
+	const std::array fds{theirs.fd(), probe.get()};
+	reply(message.header, created, std::span(fds).first(probe ? 2 : 1));
+}
+
+UniqueFd Client::offerProbe(ipc::SessionCreated &created) const
+{
+	gpu::MemoryProbe probe = gpu::makeMemoryProbe(*device_);
+	created.probeSize = probe.size;
+	created.probeTypeIndex = probe.typeIndex;
+	created.probePattern = probe.pattern;
+	return std::move(probe.memory);
 }
 
 ipc::Sharing Client::sharingFor(const ipc::CreateSession &message) const

@@ -56,6 +56,7 @@ private:
 	void refuse(const ipc::Header &request, XrResult result, const std::string &text);
 	void stopSession();
 	ipc::Sharing sharingFor(const ipc::CreateSession &message) const;
+	UniqueFd offerProbe(ipc::SessionCreated &created) const;
 	Session &sessionNumbered(uint32_t number);
 
 	World &world_;

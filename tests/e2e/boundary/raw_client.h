@@ -93,8 +93,8 @@ public:
 			if (socket.receive(received, end) == ipc::Transfer::hungUp) return true;
 		return false;
 	}
-	/// Whether the service still answers.
-	bool isServed() { return ask<ipc::Failed>(ipc::CreateSession{}).has_value(); }
+	/// Whether the service still answers: with a session, or with why there is none.
+	bool isServed() { return ask<ipc::Failed>(ipc::CreateSession{}) || received.as<ipc::SessionCreated>(); }
 
 	ipc::Socket socket;
 	ipc::Received received;

@@ -38,17 +38,21 @@ protected:
 				   std::ranges::all_of(status["clients"], [](const auto &client) { return client["shown"] > 4; });
 		});
 		EXPECT_TRUE(areShown || load.applications == 0) << (applications.empty() ? "" : applications.front().output());
-		double best = 1e9;
+		double best = 1e9, planning = 0;
 		for (int look = 0; look < 3; ++look) {
 			service.status(true);
 			eventually(service, [](const auto &status) { return status["frames"]["shown"] >= 8; });
-			best = std::min(best, service.status()["frames"]["cpuMsPerFrame"].get<double>());
+			const auto frames = service.status()["frames"];
+			if (frames["cpuMsPerFrame"].get<double>() > best) continue;
+			best = frames["cpuMsPerFrame"];
+			planning = frames["stagesMs"]["plan"]["median"];
 		}
 		applications.clear();
 		eventually(service, [](const auto &status) { return status["clients"].empty(); });
 		fmt::print(stderr,
-				   "[ FIGURE   ] {} application(s), {} view of scale {}, {:2} {} quads, images {}: {:6.1f} ms of the service's CPU\n",
-				   load.applications, load.content, load.scale, load.quads, load.kind, images, best);
+				   "[ FIGURE   ] {} application(s), {} view of scale {}, {:2} {} quads, images {}: {:6.1f} ms of the service's CPU, "
+				   "planning {:.1f}\n",
+				   load.applications, load.content, load.scale, load.quads, load.kind, images, best, planning);
 		return best;
 	}
 	/// Twice the work costs at most twice as much more, within what is measured twice alike.
@@ -62,7 +66,11 @@ private:
 	{
 		auto &service = services_[images];
 		if (!service) {
-			service.emplace(markedWorld(rate) + fmt::format("[swapchains]\nimages = \"{}\"\n", images));
+			// Few camera images: simulating them is not what is measured.
+			service.emplace(fmt::format("[headset]\ndriver = \"synthetic\"\n[clock]\nmode = \"scaled\"\nrate = {}\n[compositor]\n"
+										"target = \"offscreen\"\n[swapchains]\nimages = \"{}\"\n[synthetic]\nmotion = \"rest\"\n"
+										"camera_noise = false\ncamera_rate = 6\n",
+										rate, images));
 			eventually(*service, [](const auto &status) { return status["frames"]["shown"] > 20; });
 		}
 		return *service;
@@ -78,8 +86,8 @@ TEST_F(Cost, LayersCostWhatIsSeenOfThem)
 	const double hidden = of({.quads = 63, .kind = "hidden"}), empty = of({.quads = 63, .kind = "empty"});
 	expectLinear(none, shown[4], shown[16], 4, "four times the layers");
 	expectLinear(none, shown[16], shown[63], 4, "four times the layers, over each other");
-	EXPECT_LE(hidden - none, 0.1 * (shown[63] - none) + 2) << "layers that no eye sees";
-	EXPECT_LE(empty - none, 0.2 * (shown[63] - none) + 2) << "layers with nothing in them";
+	EXPECT_LE(hidden - none, 0.2 * (shown[63] - none) + 3) << "layers that no eye sees";
+	EXPECT_LE(empty - none, 0.2 * (shown[63] - none) + 3) << "layers with nothing in them";
 }
 
 TEST_F(Cost, ApplicationsCostWhatTheyShow)
