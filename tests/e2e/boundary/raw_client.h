@@ -44,7 +44,7 @@ public:
 		const auto welcome = received.as<ipc::Welcome>();
 		const auto created =
 			ask<ipc::SessionCreated>(ipc::CreateSession{.deviceUuid = welcome->deviceUuid, .driverUuid = welcome->driverUuid});
-		if (!created || received.fdCount != 1) return false;
+		if (!created || received.fdCount < 1) return false; // the probe may be the second
 		session = created->session;
 		frames.emplace(std::move(received.fds[0]));
 		return ask<ipc::Done>(ipc::SessionRunning{.session = session, .running = 1}).has_value();
