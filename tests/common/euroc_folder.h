@@ -24,6 +24,7 @@ void writeEurocCamera(const std::filesystem::path &folder, const EurocCamera &ca
 					  const std::function<void(const std::filesystem::path &, int)> &write);
 /// Two seconds of 200 Hz, from half a second before the first image: the same angular velocity (rad/s) and acceleration (m/s²) throughout,
 /// in the axes of the body.
-void writeEurocImu(const std::filesystem::path &folder, const std::array<double, 3> &angularVelocity, const std::array<double, 3> &acceleration);
+void writeEurocImu(const std::filesystem::path &folder, const std::array<double, 3> &angularVelocity,
+				   const std::array<double, 3> &acceleration);
 
 } // namespace arift::test
