@@ -70,7 +70,7 @@ MaskMesh makeMask(XrVisibilityMaskTypeKHR type, std::span<const XrVector2f> outl
 {
 	if (type < XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR || type > XR_VISIBILITY_MASK_TYPE_LINE_LOOP_KHR)
 		throw Error(XR_ERROR_VALIDATION_FAILURE, "{} is no XrVisibilityMaskTypeKHR", int(type));
-	const MaskMesh hidden = hiddenMesh(outline, centre, fov);
+	MaskMesh hidden = hiddenMesh(outline, centre, fov);
 	if (hidden.indices.empty() || type == XR_VISIBILITY_MASK_TYPE_HIDDEN_TRIANGLE_MESH_KHR) return hidden;
 	return type == XR_VISIBILITY_MASK_TYPE_LINE_LOOP_KHR ? lineLoop(outline) : visibleMesh(outline, centre);
 }
