@@ -92,7 +92,7 @@ SourceName nameOfSource(const Session &session, std::string_view path)
 {
 	const Features features = session.instance.features();
 	size_t end = path.size(); // of the user path
-	while (end != path.npos && !isTopLevelUserPath(path.substr(0, end), features)) end = path.rfind('/', end - 1);
+	while (end != path.npos && end != 0 && !isTopLevelUserPath(path.substr(0, end), features)) end = path.rfind('/', end - 1);
 	if (end == path.npos || end == 0) throw Error(XR_ERROR_PATH_UNSUPPORTED, "{} is no source of input", path);
 	const std::string_view user = path.substr(0, end);
 	std::string_view hand = user.substr(user.find('/', 1) + 1);

@@ -262,6 +262,10 @@ TEST_F(Actions, WhatIsBoundHasANameForPeople)
 	char name[128]{};
 	ASSERT_EQ(get<PFN_xrGetInputSourceLocalizedName>("xrGetInputSourceLocalizedName")(session, &info, 128, &count, name), XR_SUCCESS);
 	EXPECT_STREQ(name, "Left Hand Valve Index Controller A Click");
+	XrInputSourceLocalizedNameGetInfo other = info;
+	other.sourcePath = application.path("/nobody/input/a/click");
+	EXPECT_EQ(get<PFN_xrGetInputSourceLocalizedName>("xrGetInputSourceLocalizedName")(session, &other, 128, &count, name),
+			  XR_ERROR_PATH_UNSUPPORTED);
 }
 
 } // namespace
