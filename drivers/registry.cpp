@@ -1,4 +1,5 @@
 #include "drivers/registry.h"
+#include "drivers/dk1/presence.h"
 #include "drivers/replay/driver.h"
 #include "drivers/synthetic/driver.h"
 #include "runtime/base/error.h"
@@ -30,6 +31,12 @@ std::vector<std::string> driverNames()
 void checkDriverSettings(const std::shared_ptr<const TomlDocument> &configuration)
 {
 	for (const Entry &entry : entries) entry.check(configuration);
+}
+
+std::optional<PluggedHeadset> findPluggedHeadset(const std::filesystem::path &sysfs)
+{
+	const auto tracker = dk1::findTracker(sysfs);
+	return tracker ? std::optional(PluggedHeadset{"Oculus Rift DK1", tracker->port}) : std::nullopt;
 }
 
 std::unique_ptr<Driver> makeDriver(const std::string &name, const DriverContext &context)

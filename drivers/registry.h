@@ -1,7 +1,9 @@
 // Every driver there is, by name.
 #pragma once
 #include "runtime/device/driver.h"
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,15 @@ std::vector<std::string> driverNames();
 
 /// Checks every driver's table of the configuration, whichever driver is used. Opens nothing. Throws InputError.
 void checkDriverSettings(const std::shared_ptr<const TomlDocument> &configuration);
+
+/// A headset of hardware, as the kernel lists it.
+struct PluggedHeadset {
+	std::string name; ///< for people
+	std::string port; ///< of USB
+	bool operator==(const PluggedHeadset &) const = default;
+};
+/// The one that is plugged in; nothing where none is. `sysfs`: the kernel's list (/sys). Opens nothing.
+std::optional<PluggedHeadset> findPluggedHeadset(const std::filesystem::path &sysfs);
 
 /// "auto" takes the first of them, for no driver of hardware that could be plugged in is built in yet. Opens no device yet. Throws
 /// InputError for an unknown name and for wrong settings. The context's clock outlives the driver and its devices.

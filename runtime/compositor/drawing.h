@@ -6,8 +6,8 @@
 namespace arift
 {
 
-/// Layers above this many are not drawn.
-constexpr size_t maxDrawnLayers = 64;
+/// Of all applications together: layers above this many are not drawn. One application can submit ipc::maxLayers of them.
+constexpr size_t maxDrawnLayers = 1024;
 
 struct DrawItem {
 	PipelineKey pipeline;

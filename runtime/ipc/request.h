@@ -43,8 +43,9 @@ public:
 	template <typename Reply, typename Request>
 	Answer<Reply> ask(Request request, XrDuration limit, std::span<const int> fds = {}, const std::function<bool()> &isWorthWaiting = {})
 	{
-		std::lock_guard lock(mutex_);
 		const XrTime deadline = realTime() + limit;
+		const std::unique_lock lock(mutex_, std::chrono::nanoseconds(limit));
+		if (!lock) return late<Reply>();
 		request.header.sequence = ++sequence_;
 		Answer<Reply> answer;
 		Received received;
@@ -68,9 +69,10 @@ public:
 			}
 			return answer;
 		}
-		answer.how = transfer == Transfer::timeout ? Answered::timeout : Answered::hungUp;
+		if (transfer == Transfer::timeout) return late<Reply>();
+		answer.how = Answered::hungUp;
 		answer.failure.result = XR_ERROR_RUNTIME_FAILURE;
-		copyText(answer.failure.text, transfer == Transfer::timeout ? "the service did not answer in time" : "the service has gone away");
+		copyText(answer.failure.text, "the service has gone away");
 		return answer;
 	}
 	/// As above for requests that are answered without content.
@@ -82,7 +84,15 @@ public:
 
 private:
 	static constexpr XrDuration lookAround = 100 * millisecond; ///< real time
-	std::mutex mutex_;
+	template <typename Reply> static Answer<Reply> late()
+	{
+		Answer<Reply> answer;
+		answer.how = Answered::timeout;
+		answer.failure.result = XR_ERROR_RUNTIME_FAILURE;
+		copyText(answer.failure.text, "the service did not answer in time");
+		return answer;
+	}
+	std::timed_mutex mutex_;
 	Socket socket_;
 	uint32_t sequence_ = 0;
 };

@@ -124,6 +124,7 @@ void createInstance(const XrInstanceCreateInfo &info, XrInstance &instance)
 
 void destroyInstance(EvenIfLost<Instance> instance)
 {
+	instance->isEnding = true;
 	if (instance->service.isOfAnotherProcess())
 		handles.forget(*instance);
 	else

@@ -53,7 +53,9 @@ public:
 	Guarded<Suggestions> suggestions;
 	DebugMessengers messengers;
 	/// What the application told about its graphics API before it made a session.
-	std::atomic<bool> graphicsRequirementsKnown{false};
+	std::atomic<bool> vulkanRequirementsKnown{false}, openGlRequirementsKnown{false}, openGlEsRequirementsKnown{false};
+	/// In xrDestroyInstance: GL contexts may not be used any more.
+	std::atomic<bool> isEnding{false};
 	std::atomic<PFN_vkGetInstanceProcAddr> vulkanLoader{nullptr};
 	/// The VkInstance that xrCreateVulkanInstanceKHR made last, or that the application asked for its device.
 	std::atomic<VkInstance> vulkanInstance{VK_NULL_HANDLE};

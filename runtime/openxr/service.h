@@ -19,8 +19,8 @@ public:
 	static constexpr XrDuration silenceLimit = 2 * second;
 	/// … and neither within so long after somebody noticed: several beats.
 	static constexpr XrDuration secondLook = 300 * millisecond;
-	/// How long a request may take (real time) of a service that lives. On a busy machine a software renderer takes its time to allocate and
-	/// clear images; one that hangs is noticed by its silence long before.
+	/// How long a request may take (real time) of a service that lives. On a busy machine a software renderer takes its time to allocate
+	/// and clear images; a process that stands still is noticed by its silence long before.
 	static constexpr XrDuration requestLimit = 30 * second;
 	/// The first session may come while the service is still opening its devices: its own reason comes before this limit.
 	static constexpr XrDuration openingLimit = ipc::openingLimit + 5 * second;

@@ -119,10 +119,29 @@ void Client::answer(const ipc::CreateSession &message)
 	device_ = opened.device;
 	compositor_ = opened.compositor;
 	sharing_ = sharingFor(message);
-	swapchains_ = std::make_shared<Swapchains>(compositor_);
+	ipc::SessionCreated created;
+	created.session = nextSession++;
+	created.sharing = sharing_;
+	const std::vector<int64_t> formats = gpu::swapchainFormats(*device_);
+	for (size_t i = 0; i < std::min(formats.size(), created.formats.size()); ++i) created.formats[i] = int32_t(formats[i]);
+	// Two software devices may say the same of themselves and be of two builds.
+	const bool isToBeProbed =
+		sharing_ == ipc::Sharing::memory && !message.headless && device_->identity().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+	const UniqueFd probe = isToBeProbed ? offerProbe(created) : UniqueFd();
+	sharing_ = created.sharing;
 	auto [ours, theirs] = ipc::Socket::pair();
-	const uint32_t number = nextSession++;
-	session_ = std::make_shared<Session>(number, world_.clock, std::move(ours),
+	beginSession(created.session, std::move(ours));
+	// What it was begun on may have gone meanwhile, unseen by whoever ends sessions.
+	const Opened now = *world_.opened.lock();
+	if (now.headset != opened.headset || now.compositor != opened.compositor) session_->hangUp();
+	const std::array fds{theirs.fd(), probe.get()};
+	reply(message.header, created, std::span(fds).first(probe ? 2 : 1));
+}
+
+void Client::beginSession(uint32_t number, ipc::Socket channel)
+{
+	swapchains_ = std::make_shared<Swapchains>(compositor_);
+	session_ = std::make_shared<Session>(number, world_.clock, std::move(channel),
 										 Session::Images{[this](uint32_t swapchain) { return swapchains_->find(swapchain); },
 														 [this](const ipc::Submission &submission) { swapchains_->fetch(submission); }},
 										 page_, [this](const std::string &problem) {
@@ -133,26 +152,22 @@ void Client::answer(const ipc::CreateSession &message)
 		about.session = session_;
 		about.swapchains = swapchains_;
 	});
-	ipc::SessionCreated created;
-	created.session = number;
-	created.sharing = sharing_;
-	const std::vector<int64_t> formats = gpu::swapchainFormats(*device_);
-	for (size_t i = 0; i < std::min(formats.size(), created.formats.size()); ++i) created.formats[i] = int32_t(formats[i]);
-	// Two software devices may say the same of themselves and be of two builds.
-	const bool isToBeProbed =
-		sharing_ == ipc::Sharing::memory && !message.headless && device_->identity().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-	const UniqueFd probe = isToBeProbed ? offerProbe(created) : UniqueFd();
-	const std::array fds{theirs.fd(), probe.get()};
-	reply(message.header, created, std::span(fds).first(probe ? 2 : 1));
 }
 
+/// Where there is no memory for it, nothing is proven: images are copied.
 UniqueFd Client::offerProbe(ipc::SessionCreated &created) const
 {
-	gpu::MemoryProbe probe = gpu::makeMemoryProbe(*device_);
-	created.probeSize = probe.size;
-	created.probeTypeIndex = probe.typeIndex;
-	created.probePattern = probe.pattern;
-	return std::move(probe.memory);
+	try {
+		gpu::MemoryProbe probe = gpu::makeMemoryProbe(*device_);
+		created.probeSize = probe.size;
+		created.probeTypeIndex = probe.typeIndex;
+		created.probePattern = probe.pattern;
+		return std::move(probe.memory);
+	} catch (const std::exception &problem) {
+		log::warning("client {}'s images are copied through the CPU's memory: {}", peerPid_, problem.what());
+		created.sharing = ipc::Sharing::copies;
+		return {};
+	}
 }
 
 ipc::Sharing Client::sharingFor(const ipc::CreateSession &message) const

@@ -55,6 +55,7 @@ private:
 	}
 	void refuse(const ipc::Header &request, XrResult result, const std::string &text);
 	void stopSession();
+	void beginSession(uint32_t number, ipc::Socket channel);
 	ipc::Sharing sharingFor(const ipc::CreateSession &message) const;
 	UniqueFd offerProbe(ipc::SessionCreated &created) const;
 	Session &sessionNumbered(uint32_t number);
@@ -65,8 +66,8 @@ private:
 	std::atomic<bool> finished_ = false, application_ = false;
 	bool greeted_ = false;
 	const std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page_;
-	std::shared_ptr<gpu::Device> device_;    ///< while there is a session
-	std::shared_ptr<Compositor> compositor_; ///< while there is a session
+	std::shared_ptr<gpu::Device> device_;         ///< while there is a session
+	std::shared_ptr<Compositor> compositor_;      ///< while there is a session
 	ipc::Sharing sharing_ = ipc::Sharing::memory; ///< what the session may ask for
 	std::shared_ptr<Swapchains> swapchains_;
 	std::shared_ptr<Session> session_;

@@ -1,6 +1,5 @@
 #include "runtime/service/devices.h"
 #include "runtime/base/error.h"
-#include "runtime/base/error.h"
 #include "runtime/base/log.h"
 #include "runtime/service/device_threads.h"
 #include <nlohmann/json.hpp>
@@ -13,17 +12,17 @@ namespace
 constexpr const char *automatic = "auto";
 
 /// Nobody who has plugged in a headset wants to see a simulated one.
-std::string problemOf(const Config &config, const std::optional<dk1::UsbTracker> &plugged)
+std::string problemOf(const Config &config, const std::optional<PluggedHeadset> &plugged)
 {
 	if (config.driver != automatic || !plugged) return {};
-	return fmt::format("an Oculus Rift DK1 is plugged into USB port {}, but this version has no driver that opens it: unplug it, or have a "
+	return fmt::format("an {} is plugged into USB port {}, but this version has no driver that opens it: unplug it, or have a "
 					   "simulated headset all the same (headset.driver = \"synthetic\" in the configuration)",
-					   plugged->port);
+					   plugged->name, plugged->port);
 }
 
 } // namespace
 
-Devices::Devices(Context context) : context_(std::move(context)), plugged_(dk1::findTracker(context_.sysfs)), open_(choose()) {}
+Devices::Devices(Context context) : context_(std::move(context)), plugged_(findPluggedHeadset(context_.sysfs)), open_(choose()) {}
 
 Devices::~Devices() = default;
 
@@ -45,7 +44,13 @@ void Devices::open(Open &chosen) const
 	log::info("{} with rig \"{}\"", chosen.driver->name(), context_.rig.name);
 }
 
-void Devices::open() { open(*open_.lock()); }
+/// Opening takes its time: nobody who asks is kept waiting.
+void Devices::open()
+{
+	Open chosen = std::move(*open_.lock());
+	open(chosen);
+	*open_.lock() = std::move(chosen);
+}
 
 std::string Devices::name()
 {
@@ -57,7 +62,7 @@ std::string Devices::problem() { return open_.lock()->problem; }
 
 bool Devices::follow()
 {
-	auto plugged = dk1::findTracker(context_.sysfs);
+	auto plugged = findPluggedHeadset(context_.sysfs);
 	if (plugged == plugged_) return false;
 	plugged_ = std::move(plugged);
 	if (context_.config.driver != automatic) return false;
@@ -72,7 +77,7 @@ bool Devices::follow()
 	try {
 		next = choose();
 		open(next);
-	} catch (const InputError &error) {
+	} catch (const std::exception &error) { // the world stays visible
 		log::error("{}", error.what());
 		next = {.problem = error.what(), .driver = {}, .headset = {}};
 	}

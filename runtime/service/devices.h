@@ -1,6 +1,6 @@
 // Which headset is used, and its devices as long as it is: what the configuration names, or what is plugged in.
 #pragma once
-#include "drivers/dk1/presence.h"
+#include "drivers/registry.h"
 #include "runtime/base/guarded.h"
 #include "runtime/service/headset.h"
 
@@ -46,7 +46,7 @@ private:
 	void open(Open &chosen) const;
 
 	const Context context_;
-	std::optional<dk1::UsbTracker> plugged_;
+	std::optional<PluggedHeadset> plugged_;
 	Guarded<Open> open_;
 };
 

@@ -1,8 +1,9 @@
 #include "runtime/service/overrides.h"
 #include "runtime/base/error.h"
 #include "runtime/base/toml.h"
+#include "runtime/base/unique_fd.h"
 #include "runtime/base/user_directories.h"
-#include <fstream>
+#include <fcntl.h>
 #include <sstream>
 #include <unistd.h>
 
@@ -16,15 +17,22 @@ namespace
 
 constexpr const char *header = "# Written by programs (`arift set`), above config.toml. Take a line away to have your own setting again.\n";
 
+/// Whether all of it lies on the disk.
+bool writeDown(const fs::path &file, const std::string &text)
+{
+	const UniqueFd fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+	return fd && ::write(fd.get(), text.data(), text.size()) == ssize_t(text.size()) && ::fsync(fd.get()) == 0;
+}
+
 /// Complete, or as it was.
 void replace(const fs::path &file, const std::string &text)
 {
 	const fs::path next = file.string() + fmt::format(".{}", ::getpid());
-	std::ofstream(next) << text << std::flush;
 	std::error_code problem;
-	const bool complete = fs::file_size(next, problem) == text.size() && !problem;
-	if (complete) fs::rename(next, file, problem);
-	if (complete && !problem) return;
+	if (writeDown(next, text)) {
+		fs::rename(next, file, problem);
+		if (!problem) return;
+	}
 	std::error_code ignored;
 	fs::remove(next, ignored);
 	throw InputError("{}: cannot be written{}", file.string(), problem ? ": " + problem.message() : "");
@@ -36,7 +44,7 @@ fs::path overridesFile() { return configDirectory() / "overrides.toml"; }
 
 void Overrides::keep(const std::string &table, const std::string &key, float value)
 {
-	const auto writing = writing_.lock();
+	const std::lock_guard writing(writing_);
 	const fs::path file = file_.empty() ? overridesFile() : file_;
 	toml::table all = fs::exists(file) ? parseTomlFile(file) : toml::table{};
 	toml::table *const settings = all.emplace<toml::table>(table).first->second.as_table();

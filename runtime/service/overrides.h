@@ -1,8 +1,7 @@
 // Settings that programs change, kept for the next start: overrides.toml beside the user's own configuration, which is never rewritten.
 #pragma once
-#include "runtime/base/guarded.h"
 #include <filesystem>
-#include <map>
+#include <mutex>
 #include <string>
 
 namespace arift
@@ -24,7 +23,7 @@ public:
 
 private:
 	const std::filesystem::path file_;
-	Guarded<int> writing_{0}; ///< one at a time
+	std::mutex writing_; ///< one at a time
 };
 
 } // namespace arift

@@ -56,7 +56,7 @@ private:
 	std::atomic<bool> stopping_ = false;
 	std::unique_ptr<System> system_; ///< made by opener_; read elsewhere once world_.opened says so
 	Guarded<std::list<Client>> clients_{};
-	XrTime lastSeen_ = 0; ///< real: when the newest client was there
+	XrTime lastSeen_ = 0;  ///< real: when the newest client was there
 	XrTime lookAtUsb_ = 0; ///< real: when to look next what is plugged in
 	std::jthread opener_, heart_;
 };

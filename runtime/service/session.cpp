@@ -55,6 +55,7 @@ void Session::setRunning(bool running)
 	Afterwards afterwards;
 	state_.update([&](State &state) {
 		state.running = running;
+		if (running) state.pace = {}; // the pause before was no interval
 		if (running) return;
 		state.newest.reset();
 		if (state.waiting) afterwards.ready = answer(state);

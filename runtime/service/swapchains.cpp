@@ -3,6 +3,8 @@
 #include "runtime/service/copied_images.h"
 #include <algorithm>
 #include <atomic>
+#include <set>
+#include <tuple>
 
 namespace arift
 {
@@ -93,10 +95,14 @@ void Swapchains::fetch(const ipc::SubImage &image)
 
 void Swapchains::fetch(const ipc::Submission &submission)
 {
+	std::set<std::tuple<uint32_t, uint32_t, uint32_t>> fetched; // whatever a client says of releases: each once
+	const auto fetchOnce = [&](const ipc::SubImage &image) {
+		if (fetched.emplace(image.swapchain, image.image, image.arrayIndex).second) fetch(image);
+	};
 	for (uint32_t i = 0; i < submission.layerCount; ++i) {
 		const ipc::Layer &layer = submission.layers[i];
-		fetch(layer.views[0].image);
-		if (layer.type == ipc::LayerType::projection) fetch(layer.views[1].image);
+		fetchOnce(layer.views[0].image);
+		if (layer.type == ipc::LayerType::projection) fetchOnce(layer.views[1].image);
 	}
 }
 

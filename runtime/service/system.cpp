@@ -4,7 +4,6 @@
 #include "runtime/service/build.h"
 #include "runtime/service/decode.h"
 #include "runtime/service/device_threads.h"
-#include "runtime/service/device_threads.h"
 #include "runtime/service/lens_outline.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -41,12 +40,14 @@ std::filesystem::path sysfs()
 	return named && *named ? named : "/sys";
 }
 
+std::string systemName(const std::string &headset) { return fmt::format("ARift ({})", headset); }
+
 ipc::Welcome welcomeOf(const Config &config, const Rig &rig, const std::string &headset, const gpu::DeviceIdentity &gpu)
 {
 	ipc::Welcome welcome;
 	welcome.protocol = ipc::protocol;
 	ipc::copyText(welcome.build, buildId);
-	ipc::copyText(welcome.systemName, fmt::format("ARift ({})", headset));
+	ipc::copyText(welcome.systemName, systemName(headset));
 	const XrExtent2Di size = recommendedSize(rig);
 	welcome.recommendedWidth = uint32_t(size.width);
 	welcome.recommendedHeight = uint32_t(size.height);
@@ -76,21 +77,17 @@ void setViews(ipc::ViewTable &views, const Config &config, const Rig &rig)
 
 } // namespace
 
-System::System(World &world)
-	: world_(world),
-	  config_(world.config),
-	  rig_(rigFor(config_)),
-	  composition_(makeComposition(false))
+System::System(World &world) : world_(world), config_(world.config), rig_(rigFor(config_)), composition_(makeComposition(false))
 {
 	const auto first = *composition_.lock();
-	devices_ = std::make_unique<Devices>(Devices::Context{config_, rig_, world.clock, *world.poses, {&feeds_[0], &feeds_[1]},
-														  realtimeFor("tracker"), sysfs()});
+	devices_ = std::make_unique<Devices>(
+		Devices::Context{config_, rig_, world.clock, *world.poses, {&feeds_[0], &feeds_[1]}, realtimeFor("tracker"), sysfs()});
+	tellHeadset(); // before anybody hears of the service
 	identify(first->device().identity());
 	first->makeRenderer(); // pipelines take a second on a software renderer; Hello is answered in the meantime
 	// Held until every thread that sleeps on the clock has its own hold: a stepped world begins as a whole.
 	const Clock::Hold hold(world.clock);
 	devices_->open();
-	tellHeadset();
 	compose(first);
 }
 
@@ -120,8 +117,8 @@ std::function<void()> System::realtimeFor(const char *thread)
 void System::identify(const gpu::DeviceIdentity &gpu)
 {
 	world_.views.update([&](ipc::ViewTable &views) { setViews(views, config_, rig_); });
-	world_.system->lensOutlines.write({lensOutline(rig_.lens, Eye::left, fovOf(rig_, Eye::left)),
-									   lensOutline(rig_.lens, Eye::right, fovOf(rig_, Eye::right))});
+	world_.system->lensOutlines.write(
+		{lensOutline(rig_.lens, Eye::left, fovOf(rig_, Eye::left)), lensOutline(rig_.lens, Eye::right, fovOf(rig_, Eye::right))});
 	world_.opened.update([&](Opened &opened) {
 		opened.stage = Stage::identified;
 		opened.welcome = welcomeOf(config_, rig_, devices_->name(), gpu);
@@ -135,7 +132,11 @@ void System::tellHeadset()
 	state.isMissing = problem.empty() ? 0 : 1;
 	ipc::copyText(state.problem, problem);
 	world_.system->headset.write(state);
-	world_.opened.update([&](Opened &opened) { opened.headsetProblem = problem; });
+	world_.opened.update([&](Opened &opened) {
+		opened.headsetProblem = problem;
+		++opened.headset;
+		ipc::copyText(opened.welcome.systemName, systemName(devices_->name()));
+	});
 }
 
 bool System::followHeadset()

@@ -50,10 +50,11 @@ enum class Stage {
 
 struct Opened {
 	Stage stage = Stage::opening;
-	std::string problem;  ///< failed: one sentence
-	bool fault = false;   ///< failed: after it has been ready
-	ipc::Welcome welcome; ///< from identified on
+	std::string problem;        ///< failed: one sentence
+	bool fault = false;         ///< failed: after it has been ready
+	ipc::Welcome welcome;       ///< from identified on
 	std::string headsetProblem; ///< empty, or why there is no headset: there will be no session
+	uint32_t headset = 0;       ///< counts the headsets that there have been
 	/// When ready. Another pair takes their place when the GPU was lost: identified until it is there.
 	std::shared_ptr<gpu::Device> device;
 	std::shared_ptr<Compositor> compositor;

@@ -116,8 +116,7 @@ void VulkanApplication::clear(VkImage image, float value, VkFormat format)
 	vulkan<PFN_vkBeginCommandBuffer>("vkBeginCommandBuffer")(commands, &begin);
 	const bool isDepth = gpu::isDepth(format);
 	const VkAccessFlags attachment = isDepth ? VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT : VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
-	const VkPipelineStageFlags stage =
-		isDepth ? VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT : VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+	const VkPipelineStageFlags stage = isDepth ? VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT : VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
 	const VkImageSubresourceRange all{gpu::aspectOf(format), 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
 	VkImageMemoryBarrier barrier{.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
 								 .srcAccessMask = attachment,
@@ -129,8 +128,7 @@ void VulkanApplication::clear(VkImage image, float value, VkFormat format)
 								 .image = image,
 								 .subresourceRange = all};
 	const auto pipelineBarrier = vulkan<PFN_vkCmdPipelineBarrier>("vkCmdPipelineBarrier");
-	pipelineBarrier(commands, stage, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1,
-					&barrier);
+	pipelineBarrier(commands, stage, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 	const VkClearColorValue colour{{value, 0, 0, 1}};
 	const VkClearDepthStencilValue depth{value, 0};
 	constexpr VkImageLayout layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
@@ -140,8 +138,7 @@ void VulkanApplication::clear(VkImage image, float value, VkFormat format)
 		vulkan<PFN_vkCmdClearColorImage>("vkCmdClearColorImage")(commands, image, layout, &colour, 1, &all);
 	std::swap(barrier.srcAccessMask, barrier.dstAccessMask);
 	std::swap(barrier.oldLayout, barrier.newLayout);
-	pipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, stage, 0, 0, nullptr, 0, nullptr, 1,
-					&barrier);
+	pipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, stage, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 	vulkan<PFN_vkEndCommandBuffer>("vkEndCommandBuffer")(commands);
 	const VkSubmitInfo submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
 	vulkan<PFN_vkQueueSubmit>("vkQueueSubmit")(queue_, 1, &submit, VK_NULL_HANDLE);

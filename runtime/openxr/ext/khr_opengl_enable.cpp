@@ -9,7 +9,7 @@ void getOpenGLGraphicsRequirements(Instance &instance, XrSystemId system, XrGrap
 	instance.requireSystem(system);
 	requirements.minApiVersionSupported = oldestGl;
 	requirements.maxApiVersionSupported = newestGl;
-	instance.graphicsRequirementsKnown = true;
+	instance.openGlRequirementsKnown = true;
 }
 
 void getOpenGLESGraphicsRequirements(Instance &instance, XrSystemId system, XrGraphicsRequirementsOpenGLESKHR &requirements)
@@ -17,7 +17,7 @@ void getOpenGLESGraphicsRequirements(Instance &instance, XrSystemId system, XrGr
 	instance.requireSystem(system);
 	requirements.minApiVersionSupported = oldestGlEs;
 	requirements.maxApiVersionSupported = newestGlEs;
-	instance.graphicsRequirementsKnown = true;
+	instance.openGlEsRequirementsKnown = true;
 }
 
 } // namespace arift::openxr

@@ -57,7 +57,7 @@ PFN_vkGetInstanceProcAddr vulkanLoaderOf(Instance &instance)
 
 std::unique_ptr<Graphics> makeVulkanGraphics(Instance &instance, const XrGraphicsBindingVulkanKHR &binding)
 {
-	if (!instance.graphicsRequirementsKnown)
+	if (!instance.vulkanRequirementsKnown)
 		throw Error(XR_ERROR_GRAPHICS_REQUIREMENTS_CALL_MISSING, "the Vulkan graphics requirements were not asked for");
 	if (!binding.instance) throw Error(XR_ERROR_GRAPHICS_DEVICE_INVALID, "the graphics binding has no VkInstance");
 	const VulkanInstanceApi api(vulkanLoaderOf(instance), binding.instance);
@@ -92,7 +92,7 @@ void getVulkanGraphicsRequirements(Instance &instance, XrSystemId system, XrGrap
 	instance.requireSystem(system);
 	requirements.minApiVersionSupported = XR_MAKE_VERSION(1, 0, 0);
 	requirements.maxApiVersionSupported = XR_MAKE_VERSION(1, 0x3ff, 0xfff);
-	instance.graphicsRequirementsKnown = true;
+	instance.vulkanRequirementsKnown = true;
 }
 
 } // namespace arift::openxr

@@ -27,6 +27,11 @@ namespace arift::openxr
 	X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                                                                                           \
 	X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)                                                                                 \
 	X(PFNGLFRAMEBUFFERTEXTURELAYERPROC, FramebufferTextureLayer)                                                                           \
+	X(PFNGLGENBUFFERSPROC, GenBuffers)                                                                                                     \
+	X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                                                                                               \
+	X(PFNGLMAPBUFFERRANGEPROC, MapBufferRange)                                                                                             \
+	X(PFNGLUNMAPBUFFERPROC, UnmapBuffer)                                                                                                   \
+	X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                                                             \
 	X(PFNGLBINDBUFFERPROC, BindBuffer)                                                                                                     \
 	X(PFNGLFENCESYNCPROC, FenceSync)                                                                                                       \
 	X(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync)                                                                                             \
@@ -40,6 +45,7 @@ namespace arift::openxr
 	X(PFNGLDELETEMEMORYOBJECTSEXTPROC, DeleteMemoryObjectsEXT)                                                                             \
 	X(PFNGLMEMORYOBJECTPARAMETERIVEXTPROC, MemoryObjectParameterivEXT)                                                                     \
 	X(PFNGLIMPORTMEMORYFDEXTPROC, ImportMemoryFdEXT)                                                                                       \
+	X(PFNGLBUFFERSTORAGEMEMEXTPROC, BufferStorageMemEXT)                                                                                   \
 	X(PFNGLTEXSTORAGEMEM2DEXTPROC, TexStorageMem2DEXT)                                                                                     \
 	X(PFNGLTEXSTORAGEMEM3DEXTPROC, TexStorageMem3DEXT)
 

@@ -10,9 +10,9 @@ namespace
 class PlainReading
 {
 public:
-	PlainReading(const GlApi &gl, GLuint framebuffer) : gl_(gl)
+	PlainReading(const GlApi &gl, GLuint framebuffer, bool isEs) : gl_(gl), count_(settings.size() - (isEs ? 1 : 0))
 	{
-		for (size_t i = 0; i < settings.size(); ++i) {
+		for (size_t i = 0; i < count_; ++i) {
 			gl_.GetIntegerv(settings[i], &before_[i]);
 			gl_.PixelStorei(settings[i], settings[i] == GL_PACK_ALIGNMENT ? 1 : 0);
 		}
@@ -25,14 +25,16 @@ public:
 	{
 		gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(framebuffer_));
 		gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, GLuint(buffer_));
-		for (size_t i = 0; i < settings.size(); ++i) gl_.PixelStorei(settings[i], before_[i]);
+		for (size_t i = 0; i < count_; ++i) gl_.PixelStorei(settings[i], before_[i]);
 	}
 	PlainReading(const PlainReading &) = delete;
 
 private:
-	/// Those that OpenGL and OpenGL ES have.
-	static constexpr std::array<GLenum, 4> settings{GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS};
+	/// The last is OpenGL's alone.
+	static constexpr std::array<GLenum, 5> settings{GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS,
+													GL_PACK_SWAP_BYTES};
 	const GlApi &gl_;
+	const size_t count_;
 	std::array<GLint, settings.size()> before_{};
 	GLint buffer_ = 0, framebuffer_ = 0;
 };
@@ -45,10 +47,10 @@ public:
 	ReadBack(const GlCopiedImages &images, uint32_t image) : GlWork(images.graphics_), images_(images), image_(image) {}
 
 private:
-	bool finish() override
+	Outcome finish() override
 	{
 		images_.read(image_);
-		return true;
+		return Outcome::done;
 	}
 	const GlCopiedImages &images_; ///< whose swapchain waits for its last submission before it goes
 	const uint32_t image_;
@@ -67,6 +69,7 @@ GlCopiedImages::GlCopiedImages(const GlGraphics &graphics, const gpu::ImageSpec 
 			allocate(i);
 		}
 		gl_.GenFramebuffers(1, &framebuffer_);
+		requireReadable();
 	} catch (...) {
 		release();
 		throw;
@@ -75,6 +78,7 @@ GlCopiedImages::GlCopiedImages(const GlGraphics &graphics, const gpu::ImageSpec 
 
 GlCopiedImages::~GlCopiedImages()
 {
+	if (!graphics_.mayUseContext()) return; // they go with it
 	try {
 		const CurrentContext current(*graphics_.context);
 		release();
@@ -100,19 +104,36 @@ void GlCopiedImages::allocate(size_t image)
 	requireStorage();
 }
 
+void GlCopiedImages::attach(uint32_t image, uint32_t layer) const
+{
+	if (target_ == GL_TEXTURE_2D_ARRAY)
+		gl_.FramebufferTextureLayer(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, textures_[image], 0, GLint(layer));
+	else
+		gl_.FramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0,
+								 target_ == GL_TEXTURE_CUBE_MAP ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + layer : target_, textures_[image], 0);
+}
+
+void GlCopiedImages::requireReadable() const
+{
+	if (gpu::isDepth(VkFormat(spec_.format))) return;
+	const PlainReading plain(gl_, framebuffer_, graphics_.isEs());
+	attach(0, 0);
+	const auto wanted = GLint(transferOf(spec_.format).type);
+	GLint type = wanted;
+	// OpenGL ES reads bytes, packed tens and, beyond that, one type of its own choice.
+	if (graphics_.isEs() && type == GL_HALF_FLOAT) gl_.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &type);
+	if (gl_.CheckFramebufferStatus(GL_READ_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE || type != wanted)
+		throw Error(XR_ERROR_FEATURE_UNSUPPORTED, "the application's GL cannot read images of the internal format {:#x} back", format_);
+}
+
 void GlCopiedImages::read(uint32_t image) const
 {
 	if (gpu::isDepth(VkFormat(spec_.format))) return; // OpenGL ES cannot read it, and it is not shown
-	const PlainReading plain(gl_, framebuffer_);
+	const PlainReading plain(gl_, framebuffer_, graphics_.isEs());
 	const gpu::CopyLayout layout = gpu::copyLayoutOf(spec_);
 	const GlTransfer transfer = transferOf(spec_.format);
 	for (uint32_t layer = 0; layer < spec_.arrayLayers; ++layer) {
-		if (target_ == GL_TEXTURE_2D_ARRAY)
-			gl_.FramebufferTextureLayer(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, textures_[image], 0, GLint(layer));
-		else
-			gl_.FramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0,
-									 target_ == GL_TEXTURE_CUBE_MAP ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + layer : target_, textures_[image],
-									 0);
+		attach(image, layer);
 		gl_.ReadPixels(0, 0, GLsizei(spec_.width), GLsizei(spec_.height), transfer.format, transfer.type,
 					   static_cast<std::byte *>(memory_[image].address()) + layer * layout.layerPitch);
 	}

@@ -3,6 +3,7 @@
 #include "runtime/openxr/opengl/gl_formats.h"
 #include "runtime/openxr/opengl/gl_shared_images.h"
 #include <algorithm>
+#include <cstring>
 
 namespace arift::openxr
 {
@@ -31,6 +32,35 @@ void requireVersion(const GlVersion &version)
 
 } // namespace
 
+namespace
+{
+
+/// A buffer of the probe's memory, read. Errors are taken back where GL cannot.
+bool seesPattern(const GlApi &gl, const GlSharingApi &sharing, const MemoryProbe &probe)
+{
+	GLuint memory = 0, buffer = 0;
+	GLint before = 0;
+	gl.GetIntegerv(GL_COPY_READ_BUFFER_BINDING, &before);
+	sharing.CreateMemoryObjectsEXT(1, &memory);
+	sharing.ImportMemoryFdEXT(memory, probe.size, GL_HANDLE_TYPE_OPAQUE_FD_EXT, probe.memory.get());
+	probe.memory.release(); // GL's now
+	gl.GenBuffers(1, &buffer);
+	gl.BindBuffer(GL_COPY_READ_BUFFER, buffer);
+	sharing.BufferStorageMemEXT(GL_COPY_READ_BUFFER, GLsizeiptr(probe.size), memory, 0);
+	const void *bytes = gl.MapBufferRange(GL_COPY_READ_BUFFER, 0, GLsizeiptr(probe.pattern.size()), GL_MAP_READ_BIT);
+	const bool isSame = bytes && std::memcmp(bytes, probe.pattern.data(), probe.pattern.size()) == 0;
+	if (bytes)
+		gl.UnmapBuffer(GL_COPY_READ_BUFFER);
+	else
+		gl.GetError();
+	gl.BindBuffer(GL_COPY_READ_BUFFER, GLuint(before));
+	gl.DeleteBuffers(1, &buffer);
+	sharing.DeleteMemoryObjectsEXT(1, &memory);
+	return isSame;
+}
+
+} // namespace
+
 GlGraphics::About GlGraphics::aboutOf(const GlContext &context, const GlApi &gl, const std::optional<GlSharingApi> &sharing)
 {
 	const CurrentContext current(context);
@@ -48,16 +78,19 @@ GlGraphics::About GlGraphics::aboutOf(const GlContext &context, const GlApi &gl,
 	return about;
 }
 
-GlGraphics::GlGraphics(std::unique_ptr<GlContext> given, const ipc::Welcome &welcome)
-	: context(std::move(given)),
-	  gl(*context),
-	  sharing_(findSharing(*context)),
-	  about_(aboutOf(*context, gl, sharing_)),
-	  deviceType_(welcome.deviceType)
+GlGraphics::GlGraphics(std::unique_ptr<GlContext> given, const Instance &instance)
+	: context(std::move(given)), gl(*context), sharing_(findSharing(*context)), about_(aboutOf(*context, gl, sharing_)), instance_(instance)
 {
 }
 
-std::vector<int64_t> GlGraphics::formatsOf(std::span<const int32_t> vulkan) const { return glFormatsOf(vulkan, about_.version.isEs); }
+std::vector<int64_t> GlGraphics::formatsOf(std::span<const int32_t> vulkan) const { return glFormatsOf(vulkan, about_.version); }
+
+bool GlGraphics::sees(const MemoryProbe &probe) const
+{
+	if (!sharing_) return false;
+	const CurrentContext current(*context);
+	return seesPattern(gl, *sharing_, probe);
+}
 
 gpu::ImageSpec GlGraphics::specOf(const XrSwapchainCreateInfo &info, ipc::Sharing sharing) const
 {
@@ -70,7 +103,7 @@ gpu::ImageSpec GlGraphics::specOf(const XrSwapchainCreateInfo &info, ipc::Sharin
 	spec.arrayLayers = info.arraySize * info.faceCount;
 	spec.mipLevels = info.mipCount;
 	spec.samples = info.sampleCount;
-	spec.inRows = sharing == ipc::Sharing::memory && gpu::canLieInRows(deviceType_, spec) ? 1 : 0;
+	spec.inRows = sharing == ipc::Sharing::memory && gpu::canLieInRows(instance_.service.welcome().deviceType, spec) ? 1 : 0;
 	if (int64_t(std::max(spec.width, spec.height)) > about_.largest || int64_t(spec.arrayLayers) > about_.mostLayers)
 		throw Error(XR_ERROR_FEATURE_UNSUPPORTED, "the context has no texture of {}x{} with {} layers: at most {} and {}", spec.width,
 					spec.height, spec.arrayLayers, about_.largest, about_.mostLayers);
@@ -90,9 +123,11 @@ std::unique_ptr<Graphics> makeGlGraphics(Instance &instance, const void *next)
 {
 	std::unique_ptr<GlContext> context = glContextOf(instance, next);
 	if (!context) return nullptr;
-	if (!instance.graphicsRequirementsKnown)
-		throw Error(XR_ERROR_GRAPHICS_REQUIREMENTS_CALL_MISSING, "the OpenGL graphics requirements were not asked for");
-	return std::make_unique<GlGraphics>(std::move(context), instance.service.welcome());
+	auto graphics = std::make_unique<GlGraphics>(std::move(context), instance);
+	if (!(graphics->isEs() ? instance.openGlEsRequirementsKnown : instance.openGlRequirementsKnown))
+		throw Error(XR_ERROR_GRAPHICS_REQUIREMENTS_CALL_MISSING, "the {} graphics requirements were not asked for",
+					graphics->isEs() ? "OpenGL ES" : "OpenGL");
+	return graphics;
 }
 
 } // namespace arift::openxr

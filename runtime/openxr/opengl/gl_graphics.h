@@ -15,15 +15,18 @@ class GlGraphics final : public Graphics
 {
 public:
 	/// In xrCreateSession. Throws XR_ERROR_GRAPHICS_DEVICE_INVALID for a context that is too old or does not work.
-	GlGraphics(std::unique_ptr<GlContext> context, const ipc::Welcome &welcome);
+	GlGraphics(std::unique_ptr<GlContext> context, const Instance &instance);
 	std::array<uint8_t, 16> deviceUuid() const override { return about_.deviceUuid; }
 	std::array<uint8_t, 16> driverUuid() const override { return about_.driverUuid; }
 	bool rowsGoUp() const override { return true; }
 	std::vector<int64_t> formatsOf(std::span<const int32_t> vulkan) const override;
+	bool sees(const MemoryProbe &probe) const override;
 	gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info, ipc::Sharing sharing) const override;
 	std::unique_ptr<SwapchainImages> import(const gpu::ImageSpec &spec, const SharedMemory &memory) override;
 
 	bool isEs() const { return about_.version.isEs; }
+	/// Whether the call that is under way is one that may use the context.
+	bool mayUseContext() const { return !instance_.isEnding; }
 	/// Only where images are not copied.
 	const GlSharingApi &sharing() const { return *sharing_; }
 
@@ -40,7 +43,7 @@ private:
 
 	const std::optional<GlSharingApi> sharing_;
 	const About about_;
-	const uint32_t deviceType_; ///< VkPhysicalDeviceType of the service's device
+	const Instance &instance_;
 };
 
 /// The one for the binding in the chain of XrSessionCreateInfo; null where no enabled extension's binding is there.

@@ -1,5 +1,6 @@
 #include "runtime/openxr/opengl/gl_images.h"
 #include "runtime/openxr/opengl/gl_formats.h"
+#include <thread>
 
 namespace arift::openxr
 {
@@ -21,8 +22,6 @@ GLenum bindingOf(GLenum target)
 	}
 }
 
-GLenum glFormatOf(int32_t vulkan) { return GLenum(glFormatsOf({&vulkan, 1}, false).at(0)); }
-
 } // namespace
 
 BoundTexture::BoundTexture(const GlApi &gl, GLenum target, GLuint texture) : gl_(gl), target_(target)
@@ -35,7 +34,16 @@ void GlWork::settle()
 {
 	if (outcome_.load(std::memory_order_relaxed) != Outcome::notYet) return;
 	const CurrentContext current(*graphics_.context);
-	outcome_.store(finish() ? Outcome::done : Outcome::failed, std::memory_order_release);
+	outcome_.store(finish(), std::memory_order_release);
+}
+
+Completion::Outcome GlWork::wait(XrDuration limit) const
+{
+	Outcome outcome = outcome_.load(std::memory_order_acquire);
+	for (const XrTime end = realTime() + limit; outcome == Outcome::notYet && realTime() < end;
+		 outcome = outcome_.load(std::memory_order_acquire))
+		std::this_thread::sleep_for(std::chrono::milliseconds(1)); // another xrEndFrame may find it finished
+	return outcome;
 }
 
 void GlWork::abandon()

@@ -24,7 +24,7 @@ private:
 class GlWork : public Completion
 {
 public:
-	Outcome wait(XrDuration) const final { return outcome_.load(std::memory_order_acquire); }
+	Outcome wait(XrDuration limit) const final;
 	void settle() final;
 	/// Its swapchain goes: there is nothing to be found out any more. The context is current.
 	void abandon();
@@ -32,8 +32,8 @@ public:
 protected:
 	/// `graphics` must outlive it.
 	explicit GlWork(const GlGraphics &graphics) : graphics_(graphics) {}
-	/// Waits, within a limit; whether the work is done. The context is current.
-	virtual bool finish() = 0;
+	/// Waits, within a limit. The context is current.
+	virtual Outcome finish() = 0;
 	/// The context is current.
 	virtual void release() {}
 

@@ -5,7 +5,8 @@ namespace arift::openxr
 namespace
 {
 
-constexpr XrDuration workLimit = 5 * second;
+/// How long xrEndFrame waits; the frame is left out after that.
+constexpr XrDuration workLimit = second;
 
 class Fence final : public GlWork
 {
@@ -14,10 +15,14 @@ public:
 	explicit Fence(const GlGraphics &graphics) : GlWork(graphics), sync_(graphics.gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {}
 
 private:
-	bool finish() override
+	Outcome finish() override
 	{
-		const GLenum found = sync_ ? graphics_.gl.ClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, uint64_t(workLimit)) : GL_WAIT_FAILED;
-		return found == GL_ALREADY_SIGNALED || found == GL_CONDITION_SATISFIED;
+		switch (sync_ ? graphics_.gl.ClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, uint64_t(workLimit)) : GL_WAIT_FAILED) {
+		case GL_ALREADY_SIGNALED:
+		case GL_CONDITION_SATISFIED: return Outcome::done;
+		case GL_TIMEOUT_EXPIRED: return Outcome::notYet;
+		default: return Outcome::failed;
+		}
 	}
 	void release() override
 	{
@@ -43,6 +48,7 @@ GlSharedImages::GlSharedImages(const GlGraphics &graphics, const gpu::ImageSpec 
 
 GlSharedImages::~GlSharedImages()
 {
+	if (!graphics_.mayUseContext()) return; // they go with it
 	try {
 		const CurrentContext current(*graphics_.context);
 		release();

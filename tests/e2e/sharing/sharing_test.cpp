@@ -136,7 +136,8 @@ protected:
 		const ipc::Mapping texels = ipc::mapWritable(client_.images[0].get(), size_);
 		for (size_t i = 0; i < size_; ++i) static_cast<uint8_t *>(texels.address())[i] = colour[i % 4];
 	}
-	/// Submits the quad and looks at what is shown of it: red, green and blue ahead of the left eye, whose view reaches further to the left.
+	/// Submits the quad and looks at what is shown of it: red, green and blue ahead of the left eye, whose view reaches further to the
+	/// left.
 	std::array<int, 3> shownOf(uint32_t release)
 	{
 		ipc::Submission submission = client_.quad(++frame_);

@@ -16,12 +16,10 @@ protected:
 		: clock_(std::move(clock)),
 		  page_(std::make_shared<ipc::SharedPage<ipc::ClientPage>>("test")),
 		  pair_(ipc::Socket::pair()),
-		  session_(
-			  7, *clock_, std::move(pair_.first),
-			  {[](uint32_t) {
-				  return std::optional(SwapchainShape{64, 64, 1, 3});
-			  }},
-			  page_, [this](const std::string &problem) { malformed_.update([&](std::string &kept) { kept = problem; }); })
+		  session_(7, *clock_, std::move(pair_.first), {[](uint32_t) {
+					   return std::optional(SwapchainShape{64, 64, 1, 3});
+				   }},
+				   page_, [this](const std::string &problem) { malformed_.update([&](std::string &kept) { kept = problem; }); })
 	{
 		session_.setRunning(true);
 	}
