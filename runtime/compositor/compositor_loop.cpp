@@ -206,7 +206,7 @@ void Compositor::Loop::run(const std::stop_token &stop)
 		if (surroundings_.threadBegins) surroundings_.threadBegins();
 		// On a machine that is always late no sleep is long enough to be ended by the stop request: it is asked for as well.
 		for (Pacer::Refresh refresh = pacer_.next(clock.now()); clock.sleepUntil(refresh.latch, stop) && !stop.stop_requested();
-			 refresh = pacer_.after(refresh.display, clock.now())) {
+			 refresh = pacer_.after(lastDisplay_, clock.now())) {
 			// Later than the margin allows for, the refresh planned cannot be reached any more: the next one can.
 			if (const XrTime now = clock.now(); now - refresh.latch > latest) refresh = pacer_.next(now);
 			if (!frame(refresh)) {

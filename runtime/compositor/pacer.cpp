@@ -37,10 +37,11 @@ Pacer::Refresh Pacer::next(XrTime now) const
 Pacer::Refresh Pacer::after(XrTime display, XrTime done) const
 {
 	const Refresh refresh = next(done);
-	if (refresh.display - display >= period() / 2) return refresh;
-	// Composing was cheaper than expected: the refresh just served could be reached again.
-	const XrTime time = refresh.display + period();
-	return {.latch = std::max(done, time - lead()), .vblank = refresh.vblank + period(), .display = time};
+	XrTime time = refresh.display;
+	// Composing was cheaper than expected, or the image is seen later than planned: no refresh is served twice.
+	while (time - display < period() / 2) time += period();
+	if (time == refresh.display) return refresh;
+	return {.latch = std::max(done, time - lead()), .vblank = time - settings_.vblankToDisplay, .display = time};
 }
 
 void Pacer::composed(XrDuration cost)

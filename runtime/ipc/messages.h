@@ -109,7 +109,7 @@ struct SessionCreated {
 	static constexpr MessageType type = MessageType::sessionCreated;
 	Header header{type};
 	uint32_t session = 0;
-	Sharing sharing = Sharing::memory;         ///< copies: the service imports nothing; memory: the application may ask for copies yet
+	Sharing sharing = Sharing::memory;         ///< copies: nothing is shared; memory: the application may ask for copies yet
 	std::array<int32_t, maxFormats> formats{}; ///< VkFormats of swapchains, the service's favourite first; 0 behind the last
 	/// Memory of the service's device that begins with these bytes: where a device that says it is the same reads others, its images are
 	/// not to be shared. Size 0: there is none.

@@ -63,7 +63,7 @@ XrFrameState Session::waitFrame()
 		const ipc::FrameReady ready = askForFrame();
 		takeNews();
 		life_->change([](Life &life) { life.order.finishWait(true); });
-		if (measuresFrames) waitedAt_ = realTime();
+		waitedAt_ = realTime();
 		const bool isShown = state() == XR_SESSION_STATE_VISIBLE || state() == XR_SESSION_STATE_FOCUSED;
 		return {.predictedDisplayTime = ready.predictedDisplayTime,
 				.predictedDisplayPeriod = ready.predictedDisplayPeriod,
@@ -103,7 +103,7 @@ void Session::endFrame(const XrFrameEndInfo &info)
 		life.order.end();
 		life.facts.frameSynchronized = true;
 	});
-	if (!measuresFrames || begunAt_ == 0) return;
+	if (!measuresFrames) return;
 	const XrTime now = realTime();
 	frameCost_.update([&](FrameCost &cost) { cost = {cost.frames + 1, now - begunAt_}; });
 }

@@ -1,5 +1,5 @@
-// XrSpace. OpenXR 1.1, chapters "Spaces" and "View Configurations" (xrLocateViews). Locating reads shared memory only: no lock, no system
-// call, no allocation.
+// XrSpace. OpenXR 1.1, chapters "Spaces" and "View Configurations" (xrLocateViews). Locating reads shared memory only: no system call, no
+// allocation and, but for the spaces of actions, no lock.
 #pragma once
 #include "runtime/motion/spaces.h"
 #include "runtime/openxr/session.h"

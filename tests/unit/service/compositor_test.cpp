@@ -37,7 +37,12 @@ public:
 			if (layer.quad[0]) { EXPECT_TRUE(images_.contains(layer.quad[0]->texture.image)) << "an image the renderer was never told of"; }
 		drawn_.update([&](auto &all) { all.push_back({inputs, clock_.now()}); });
 	}
-	Target::Result present(const Pacer::Refresh &refresh) override { return target_->present(VK_NULL_HANDLE, {}, refresh); }
+	Target::Result present(const Pacer::Refresh &refresh) override
+	{
+		Target::Result result = target_->present(VK_NULL_HANDLE, {}, refresh);
+		if (everyOtherIsLate && presented_++ % 2 == 0) result.display += period;
+		return result;
+	}
 	ReadbackImage readPanel() override
 	{
 		reads++;
@@ -46,12 +51,15 @@ public:
 	ReadbackImage renderEyes(const PanelInputs &) override { return {.width = 2, .height = 1, .pixels = std::vector<std::byte>(8)}; }
 
 	static inline std::atomic<size_t> reads = 0;
+	/// Every other image is seen a refresh later than planned.
+	static inline std::atomic<bool> everyOtherIsLate = false;
 
 private:
 	Clock &clock_;
 	Guarded<std::vector<Drawn>> &drawn_;
 	std::unique_ptr<Target> target_;
 	std::set<uint64_t> images_;
+	size_t presented_ = 0;
 };
 
 /// Shows one quad of one image, and notes what it is told.
@@ -73,7 +81,12 @@ public:
 	}
 	std::shared_ptr<const FrameContent> content() override { return content_; }
 	void shown(const std::shared_ptr<const FrameContent> &content) override { EXPECT_EQ(content, content_); }
+	void displayed(const FrameContent &, XrTime display) override
+	{
+		displays.update([&](auto &all) { all.push_back(display); });
+	}
 	Guarded<std::vector<Opportunity>> wakes{};
+	Guarded<std::vector<XrTime>> displays{};
 
 private:
 	std::shared_ptr<const FrameContent> content_;
@@ -121,6 +134,20 @@ TEST_F(CompositorTest, MakesOneImagePerRefreshAndMissesNone)
 	const auto timing = page_->timing.read();
 	ASSERT_TRUE(timing);
 	EXPECT_NEAR(double(timing->latchBeforeDisplay), double(pacing.vblankToDisplay + pacing.margin), 100);
+}
+
+TEST_F(CompositorTest, NoTwoImagesAreForOneRefresh)
+{
+	const auto source = std::make_shared<FakeSource>(7);
+	compositor_->addImage(7, VkImage(1), {}, nullptr);
+	compositor_->addSource(source);
+	FakePanel::everyOtherIsLate = true;
+	run(40);
+	FakePanel::everyOtherIsLate = false;
+	const std::vector<XrTime> displays = *source->displays.lock();
+	ASSERT_GT(displays.size(), 10u);
+	for (size_t i = 1; i < displays.size(); ++i)
+		EXPECT_GT(displays[i], displays[i - 1] + period / 2) << "image " << i << " takes the place of one that is late";
 }
 
 TEST_F(CompositorTest, LinesAreSeenOneAfterTheOther)
