@@ -36,22 +36,37 @@ ipc::CameraTiming CameraTimingEstimate::timing() const
 	return {newest.midExposure + XrDuration(beat.offset), XrDuration(beat.period), atRank(delays, 0.9)};
 }
 
+XrTime CameraTimingEstimate::midExposure() const
+{
+	const Image &newest = images_.back();
+	if (images_.size() < enough) return newest.midExposure;
+	const Beat beat = leastSquares(newest, leastSquares(newest, std::nullopt));
+	const bool isJitter = std::abs(beat.offset) <= 6 * usualDistance(newest, beat); // four standard deviations
+	return newest.midExposure + (isJitter ? XrDuration(beat.offset) : 0);
+}
+
+double CameraTimingEstimate::distance(const Image &image, const Image &newest, const Beat &beat)
+{
+	return std::abs(double(image.midExposure - newest.midExposure) - beat.offset + beat.period * double(newest.sequence - image.sequence));
+}
+
+double CameraTimingEstimate::usualDistance(const Image &newest, const Beat &beat) const
+{
+	std::vector<XrDuration> distances;
+	for (const Image &image : images_) distances.push_back(XrDuration(distance(image, newest, beat)));
+	return double(atRank(distances, 0.5)) + 1000;
+}
+
 /// Straight line through (sequence, mid-exposure), both counted from the newest image; images further than three times the usual
 /// distance from `before` (where there is one) take no part.
 CameraTimingEstimate::Beat CameraTimingEstimate::leastSquares(const Image &newest, std::optional<Beat> before) const
 {
 	const auto at = [&](const Image &image) { return -double(newest.sequence - image.sequence); };
 	const auto time = [&](const Image &image) { return double(image.midExposure - newest.midExposure); };
-	const auto distance = [&](const Image &image) { return std::abs(time(image) - before->offset - before->period * at(image)); };
-	double usual = 0;
-	if (before) {
-		std::vector<XrDuration> distances;
-		for (const Image &image : images_) distances.push_back(XrDuration(distance(image)));
-		usual = double(atRank(distances, 0.5)) + 1000;
-	}
+	const double usual = before ? usualDistance(newest, *before) : 0;
 	double n = 0, x = 0, y = 0, xx = 0, xy = 0;
 	for (const Image &image : images_) {
-		if (before && distance(image) > 3 * usual) continue;
+		if (before && distance(image, newest, *before) > 3 * usual) continue;
 		n += 1, x += at(image), y += time(image), xx += at(image) * at(image), xy += at(image) * time(image);
 	}
 	const double spread = n * xx - x * x;
@@ -65,6 +80,7 @@ void CameraFeed::put(CameraImage image, XrTime usable)
 	std::optional<CameraImage> before; // goes back to its driver when the lock is gone
 	state_.update([&](State &state) {
 		state.estimate.add(image.frame.sequence, image.frame.midExposure, usable);
+		image.frame.midExposure = state.estimate.midExposure();
 		before = std::exchange(state.newest, std::move(image));
 		state.received++;
 	});

@@ -16,9 +16,13 @@ public:
 	void add(uint64_t sequence, XrTime midExposure, XrTime usable);
 	/// period 0 until two images are known.
 	ipc::CameraTiming timing() const;
+	/// Of the newest image: where the line through its predecessors and itself says, as long as it lies no further from that than jitter
+	/// like theirs explains, for a camera's clock is steadier than the times at which a host hears of it. As told where it does, or of few
+	/// images.
+	XrTime midExposure() const;
 
 private:
-	static constexpr size_t kept = 31;
+	static constexpr size_t kept = 31, enough = 8;
 	struct Image {
 		uint64_t sequence;
 		XrTime midExposure;
@@ -28,6 +32,9 @@ private:
 	struct Beat {
 		double period, offset;
 	};
+	/// How far (ns) an image's mid-exposure lies from the line, whatever its side.
+	static double distance(const Image &image, const Image &newest, const Beat &beat);
+	double usualDistance(const Image &newest, const Beat &beat) const;
 	Beat leastSquares(const Image &newest, std::optional<Beat> before) const;
 
 	std::deque<Image> images_;
@@ -45,7 +52,7 @@ struct CameraImage {
 class CameraFeed
 {
 public:
-	/// `usable` is when the image was handed over.
+	/// `usable` is when the image was handed over. Its time becomes CameraTimingEstimate::midExposure().
 	void put(CameraImage image, XrTime usable);
 	/// The camera is gone: no image is the newest until one comes again.
 	void lose();

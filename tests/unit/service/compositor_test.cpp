@@ -370,6 +370,31 @@ TEST(CameraTimingEstimate, ForgetsACameraThatWasRestarted)
 	EXPECT_EQ(estimate.timing().period, 0) << "one image says nothing of a period";
 }
 
+TEST(CameraFeed, ATimesJitterIsSmoothedAndAChangeIsFollowed)
+{
+	CameraFeed feed;
+	constexpr XrDuration cameraPeriod = 23'255'814;
+	double told = 0, found = 0;
+	uint64_t sequence = 0;
+	XrTime truth = second;
+	const auto put = [&](XrDuration error) {
+		truth += cameraPeriod;
+		feed.put({.frame = {.midExposure = truth + error, .sequence = ++sequence}}, truth + 25 * millisecond);
+		return double(feed.newest()->frame.midExposure - truth);
+	};
+	for (int i = 0; i < 200; ++i) {
+		const XrDuration error = (i * 7919 % 13 - 6) * 170 * microsecond; // within 1.02 ms
+		const double left = put(error);
+		if (i < 31) continue;
+		told += double(error) * double(error);
+		found += left * left;
+	}
+	EXPECT_LT(std::sqrt(found / told), 0.5) << "root mean square of what is left";
+	feed.lose();
+	for (int i = 0; i < 40; ++i) EXPECT_NEAR(put(0), 0, 1000);
+	EXPECT_NEAR(put(4 * millisecond), 4e6, 1000) << "a longer exposure is no jitter";
+}
+
 TEST(CameraFeed, ALostCameraHasNoImage)
 {
 	CameraFeed feed;
