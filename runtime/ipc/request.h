@@ -44,8 +44,7 @@ public:
 	Answer<Reply> ask(Request request, XrDuration limit, std::span<const int> fds = {}, const std::function<bool()> &isWorthWaiting = {})
 	{
 		const XrTime deadline = realTime() + limit;
-		const std::unique_lock lock(mutex_, std::chrono::nanoseconds(limit));
-		if (!lock) return late<Reply>();
+		const std::lock_guard lock(mutex_); // whoever has it waits for a limited time too
 		request.header.sequence = ++sequence_;
 		Answer<Reply> answer;
 		Received received;
@@ -69,10 +68,9 @@ public:
 			}
 			return answer;
 		}
-		if (transfer == Transfer::timeout) return late<Reply>();
-		answer.how = Answered::hungUp;
+		answer.how = transfer == Transfer::timeout ? Answered::timeout : Answered::hungUp;
 		answer.failure.result = XR_ERROR_RUNTIME_FAILURE;
-		copyText(answer.failure.text, "the service has gone away");
+		copyText(answer.failure.text, transfer == Transfer::timeout ? "the service did not answer in time" : "the service has gone away");
 		return answer;
 	}
 	/// As above for requests that are answered without content.
@@ -84,15 +82,7 @@ public:
 
 private:
 	static constexpr XrDuration lookAround = 100 * millisecond; ///< real time
-	template <typename Reply> static Answer<Reply> late()
-	{
-		Answer<Reply> answer;
-		answer.how = Answered::timeout;
-		answer.failure.result = XR_ERROR_RUNTIME_FAILURE;
-		copyText(answer.failure.text, "the service did not answer in time");
-		return answer;
-	}
-	std::timed_mutex mutex_;
+	std::mutex mutex_;
 	Socket socket_;
 	uint32_t sequence_ = 0;
 };
