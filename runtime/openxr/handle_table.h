@@ -54,8 +54,8 @@ public:
 	template <HandleObject T> typename HandleOf<T>::type insert(std::unique_ptr<T> object, const Object *parent)
 	{
 		const uint64_t handle = put(object.get(), HandleOf<T>::objectType, parent);
-		object.release();
-		return reinterpret_cast<typename HandleOf<T>::type>(handle);
+		static_cast<void>(object.release());                         // the table's now
+		return reinterpret_cast<typename HandleOf<T>::type>(handle); // NOLINT(performance-no-int-to-ptr): OpenXR's handles are pointers
 	}
 
 	template <HandleObject T> T &at(typename HandleOf<std::remove_const_t<T>>::type handle) const
