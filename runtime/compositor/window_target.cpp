@@ -189,6 +189,20 @@ private:
 		return true;
 	}
 
+	/// A surface may be lost because its X server is: then there is no other.
+	void replaceSurface()
+	{
+		forgetSwapchain();
+		surface_ = nullptr;
+		if (window_.isGone()) return;
+		log::warning("the window's surface is lost: another is made");
+		try {
+			surface_ = makeSurface(gpu_, window_);
+		} catch (const std::runtime_error &) {
+			if (!window_.isGone()) throw;
+		}
+	}
+
 	/// A window that was resized or that does not take images just now misses this one.
 	void show(VkImage image, VkExtent2D extent)
 	{
@@ -206,10 +220,7 @@ private:
 		} catch (const vk::OutOfDateKHRError &) {
 			forgetSwapchain();
 		} catch (const vk::SurfaceLostKHRError &) {
-			log::warning("the window's surface is lost: another is made");
-			forgetSwapchain();
-			surface_ = nullptr;
-			surface_ = makeSurface(gpu_, window_);
+			replaceSurface();
 		} catch (const vk::SystemError &) {
 			if (!window_.isGone()) throw;
 			forgetSwapchain();
