@@ -32,17 +32,17 @@ ipc::CameraTiming CameraTimingEstimate::timing() const
 	const Image &newest = images_.back();
 	std::vector<XrDuration> delays;
 	for (const Image &image : images_) delays.push_back(image.delay);
-	const Beat beat = leastSquares(newest, leastSquares(newest, std::nullopt));
-	return {newest.midExposure + XrDuration(beat.offset), XrDuration(beat.period), atRank(delays, 0.9)};
+	const Beat line = beat();
+	return {newest.midExposure + XrDuration(line.offset), XrDuration(line.period), atRank(delays, 0.9)};
 }
 
 XrTime CameraTimingEstimate::midExposure() const
 {
 	const Image &newest = images_.back();
 	if (images_.size() < enough) return newest.midExposure;
-	const Beat beat = leastSquares(newest, leastSquares(newest, std::nullopt));
-	const bool isJitter = std::abs(beat.offset) <= 6 * usualDistance(newest, beat); // four standard deviations
-	return newest.midExposure + (isJitter ? XrDuration(beat.offset) : 0);
+	const Beat line = beat();
+	const bool isJitter = std::abs(line.offset) <= 6 * usualDistance(newest, line); // four standard deviations
+	return newest.midExposure + (isJitter ? XrDuration(line.offset) : 0);
 }
 
 double CameraTimingEstimate::distance(const Image &image, const Image &newest, const Beat &beat)
@@ -80,6 +80,7 @@ void CameraFeed::put(CameraImage image, XrTime usable)
 	std::optional<CameraImage> before; // goes back to its driver when the lock is gone
 	state_.update([&](State &state) {
 		state.estimate.add(image.frame.sequence, image.frame.midExposure, usable);
+		state.timing = state.estimate.timing();
 		image.frame.midExposure = state.estimate.midExposure();
 		before = std::exchange(state.newest, std::move(image));
 		state.received++;
@@ -91,11 +92,12 @@ void CameraFeed::lose()
 	state_.update([](State &state) {
 		state.newest.reset();
 		state.estimate = {};
+		state.timing = {};
 	});
 }
 
 std::optional<CameraImage> CameraFeed::newest() { return state_.lock()->newest; }
-ipc::CameraTiming CameraFeed::timing() { return state_.lock()->estimate.timing(); }
+ipc::CameraTiming CameraFeed::timing() { return state_.lock()->timing; }
 uint64_t CameraFeed::received() { return state_.lock()->received; }
 
 } // namespace arift

@@ -35,6 +35,8 @@ private:
 	/// How far (ns) an image's mid-exposure lies from the line, whatever its side.
 	static double distance(const Image &image, const Image &newest, const Beat &beat);
 	double usualDistance(const Image &newest, const Beat &beat) const;
+	/// Without those that are mistimed.
+	Beat beat() const { return leastSquares(images_.back(), leastSquares(images_.back(), std::nullopt)); }
 	Beat leastSquares(const Image &newest, std::optional<Beat> before) const;
 
 	std::deque<Image> images_;
@@ -64,6 +66,7 @@ private:
 	struct State {
 		std::optional<CameraImage> newest;
 		CameraTimingEstimate estimate;
+		ipc::CameraTiming timing; ///< of the estimate: asked for in every refresh
 		uint64_t received = 0;
 	};
 	Guarded<State> state_;

@@ -58,13 +58,11 @@ size_t Input::slotFor(State &state, const ActionCore &action, XrPath subactionPa
 
 void Input::bind(State &state, const Binding &binding, std::map<XrPath, size_t> &identifiers)
 {
-	const auto isOwner = [&](const auto &set) { return set == binding.action->set; };
-	const auto set = std::ranges::find_if(state.sets, isOwner);
-	if (set == state.sets.end()) return;
+	if (std::ranges::find(state.sets, binding.action->set) == state.sets.end()) return;
 	const auto [identifier, isNew] = identifiers.try_emplace(binding.identifier, state.highest.size());
 	if (isNew) state.highest.push_back(0);
 	const size_t own = slotFor(state, *binding.action, binding.user), all = slotFor(state, *binding.action, XR_NULL_PATH);
-	state.bounds.push_back({binding, size_t(set - state.sets.begin()), identifier->second, own, all});
+	state.bounds.push_back({binding, identifier->second, own, all});
 	state.profiles.try_emplace(binding.user, XR_NULL_PATH);
 }
 

@@ -63,7 +63,6 @@ private:
 	};
 	struct Bound {
 		Binding binding;
-		size_t set;            ///< index in sets
 		size_t identifier;     ///< index in highest
 		size_t own, all;       ///< indices in slots: its user path's, and of all together
 		bool isUsable = false; ///< by its device and its action set, at this synchronization

@@ -1,5 +1,7 @@
 #include "runtime/openxr/ext/ext_conformance_automation.h"
 #include "runtime/openxr/interaction_profiles.h"
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace arift::openxr
@@ -48,13 +50,15 @@ void setInputDeviceActive(Session &session, XrPath interactionProfile, XrPath to
 		throw Error(XR_ERROR_PATH_UNSUPPORTED, "{} is no interaction profile of this runtime", name);
 	const std::string &user = session.instance.paths.text(topLevelPath);
 	const Placed place = usualPlace(user);
+	std::array<XrPath, 2> surfaces{};
+	std::ranges::transform(std::array{"/input/grip_surface/pose", "/input/palm_ext/pose"}, surfaces.begin(),
+						   [&](const char *surface) { return session.instance.paths.atom(user + surface); });
 	session.input.changeDevices([&](InputDevices &devices) {
 		InputDevice &device = devices[topLevelPath];
 		device.profile = interactionProfile;
 		device.isActive = isActive == XR_TRUE;
 		device.place = place;
-		for (const char *surface : {"/input/grip_surface/pose", "/input/palm_ext/pose"})
-			device.values.try_emplace(session.instance.paths.atom(user + surface), InputValue{{}, onSurface(place)});
+		for (const XrPath surface : surfaces) device.values.try_emplace(surface, InputValue{{}, onSurface(place)});
 	});
 }
 

@@ -78,13 +78,7 @@ GlCopiedImages::GlCopiedImages(const GlGraphics &graphics, const gpu::ImageSpec 
 
 GlCopiedImages::~GlCopiedImages()
 {
-	if (!graphics_.mayUseContext()) return; // they go with it
-	try {
-		const CurrentContext current(*graphics_.context);
-		release();
-	} catch (const std::exception &problem) {
-		log::warning("xrDestroySwapchain: {}; its textures are left alone", problem.what());
-	}
+	inContext([this] { release(); });
 }
 
 void GlCopiedImages::release() noexcept

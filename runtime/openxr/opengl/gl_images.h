@@ -57,6 +57,17 @@ protected:
 	GlImages(const GlGraphics &graphics, const gpu::ImageSpec &spec, size_t count);
 	/// Its textures are gone: deleteTextures() was called.
 	~GlImages() override = default;
+	/// For destructors: calls `release` with the context current, where it still may be used; leaves everything alone where not.
+	template <typename Release> void inContext(Release release) const noexcept
+	{
+		if (!graphics_.mayUseContext()) return; // textures go with it
+		try {
+			const CurrentContext current(*graphics_.context);
+			release();
+		} catch (const std::exception &problem) {
+			log::warning("xrDestroySwapchain: {}; its textures are left alone", problem.what());
+		}
+	}
 	/// The context is current.
 	void deleteTextures() noexcept;
 	/// Throws XR_ERROR_RUNTIME_FAILURE where a bound texture has got no memory.

@@ -48,13 +48,7 @@ GlSharedImages::GlSharedImages(const GlGraphics &graphics, const gpu::ImageSpec 
 
 GlSharedImages::~GlSharedImages()
 {
-	if (!graphics_.mayUseContext()) return; // they go with it
-	try {
-		const CurrentContext current(*graphics_.context);
-		release();
-	} catch (const std::exception &problem) {
-		log::warning("xrDestroySwapchain: {}; its textures are left alone", problem.what());
-	}
+	inContext([this] { release(); });
 }
 
 void GlSharedImages::release() noexcept

@@ -1,15 +1,14 @@
 // Programs that know nothing of this project run on it, under every validation layer: what they show is on the panel, and the layers say
 // nothing.
 #include "tests/e2e/applications/layer_messages.h"
+#include "tests/e2e/common/command.h"
 #include "tests/e2e/common/private_service.h"
 #include "tests/e2e/common/x_server.h"
 #include <algorithm>
 #include <cmath>
 #include <fcntl.h>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
@@ -36,13 +35,6 @@ camera_noise = false
 )";
 
 constexpr uint64_t enoughFrames = 20;
-
-std::string contentsOf(const std::filesystem::path &file)
-{
-	std::ostringstream text;
-	text << std::ifstream(file).rdbuf();
-	return text.str();
-}
 
 struct Pixel {
 	int red, green, blue;
@@ -83,7 +75,7 @@ public:
 	ChildProcess &process() { return *process_; }
 	void pressKey() const { EXPECT_EQ(::write(keys_, "\n", 1), 1); }
 	/// Everything it and the layers printed.
-	std::string output() const { return process_->output() + contentsOf(coreValidation_); }
+	std::string output() const { return process_->output() + contentOf(coreValidation_); }
 	/// What the layer says of itself when an instance is created.
 	bool hasCoreValidation() const { return process_->output().find("Core Validation output type:") != std::string::npos; }
 

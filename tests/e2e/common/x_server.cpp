@@ -1,7 +1,7 @@
 #include "tests/e2e/common/x_server.h"
+#include "tests/e2e/common/command.h"
 #include <cctype>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 #include <unistd.h>
@@ -58,13 +58,6 @@ std::vector<std::string> announcing(std::vector<std::string> command, const std:
 	return command;
 }
 
-std::string contentsOf(const std::filesystem::path &file)
-{
-	std::ostringstream text;
-	text << std::ifstream(file).rdbuf();
-	return text.str();
-}
-
 } // namespace
 
 bool XServer::isThere(Kind kind)
@@ -77,11 +70,11 @@ XServer::XServer(const PrivateTree &tree, Kind kind)
 	: process_(announcing(commandFor(kind, tree), tree.root() / "display-number"), tree.environment(), tree.root() / "x-server.log")
 {
 	const std::filesystem::path number = tree.root() / "display-number";
-	for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20); !contentsOf(number).ends_with('\n');) {
+	for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20); !contentOf(number).ends_with('\n');) {
 		if (std::chrono::steady_clock::now() > end) throw std::runtime_error("no X server: " + process_.output());
 		std::this_thread::sleep_for(std::chrono::milliseconds(20));
 	}
-	display_ = ":" + std::to_string(std::atoi(contentsOf(number).c_str()));
+	display_ = ":" + std::to_string(std::atoi(contentOf(number).c_str()));
 }
 
 } // namespace arift::e2e
