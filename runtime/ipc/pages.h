@@ -1,6 +1,7 @@
 // What the service publishes in shared memory that applications map read-only. Plain fixed-width data behind sequence words.
 #pragma once
 #include "runtime/base/clock.h"
+#include "runtime/base/gamepad.h"
 #include "runtime/base/pose.h"
 #include <array>
 #include <atomic>
@@ -141,7 +142,14 @@ struct SystemPage {
 	Published<LensOutlines> lensOutlines;
 };
 
-enum class EventType : uint32_t { none, visibilityChanged, exitRequested, recentered, lossPending };
+enum class EventType : uint32_t {
+	none,
+	visibilityChanged,
+	exitRequested,
+	recentered,
+	lossPending,
+	mainVisibilityChanged ///< for overlay sessions: of the main session
+};
 
 struct Event {
 	EventType type = EventType::none;
@@ -149,7 +157,22 @@ struct Event {
 	XrTime time = 0;
 	uint32_t visible = 0, focused = 0;
 	XrPosef pose = identityPose; ///< recentered: the new space's origin in the old one
+	uint32_t flags = 0;          ///< mainVisibilityChanged: XrOverlayMainSessionFlagsEXTX
+};
+
+/// What a hand without a controller says by other devices: of khr/simple_controller.
+struct HandState {
+	uint32_t isThere = 0;
+	uint32_t select = 0, menu = 0; ///< 1: pressed
 	uint32_t reserved = 0;
+	XrPosef aimInView = identityPose, gripInView = identityPose;
+};
+
+/// The devices of input that a person has switched on, as they are now; at rest for an application without the focus.
+struct InputTable {
+	std::array<HandState, 2> hands; ///< left, right
+	uint32_t hasGamepad = 0;
+	GamepadState gamepad;
 };
 
 /// One per application, mapped read-only by it alone.
@@ -158,6 +181,7 @@ struct ClientPage {
 	/// Events written so far; event n lies in slot n % eventSlots. A reader that falls behind by more has lost the oldest.
 	std::atomic<uint64_t> eventCount{0};
 	std::array<Published<Event>, eventSlots> events;
+	Published<InputTable> input;
 	/// The oldest submission (its frame number) whose images the compositor may still read. Images last used by an earlier one are free.
 	std::atomic<uint64_t> oldestHeldFrame{0};
 };
