@@ -70,13 +70,14 @@ build() {
 	cmake --preset "$preset" >"$work/configure" 2>&1 || { cat "$work/configure"; return 1; }
 	ninja -C "build/$preset" -j "$jobs" "$@"
 }
-# run_ctest PRESET NAME ARGUMENTS...: keeps CTest's closing lines for the summary
+# run_ctest PRESET NAME ARGUMENTS...: keeps CTest's closing lines for the summary, and what the tests that failed said
 run_ctest() {
 	local preset=$1 name=$2 result
 	shift 2
 	ctest --test-dir "build/$preset" -j "$jobs" --no-tests=error "$@" 2>&1 | tee "$work/ctest.$name"
 	result=${PIPESTATUS[0]}
 	grep -E '^[0-9]+% tests passed|^Total Test time' "$work/ctest.$name" | tail -2 >"$work/summary.$name"
+	[ "$result" = 0 ] || grep -aE -A 8 ': Failure$|Sanitizer: |runtime error: |what\(\): |\*\*\*(Failed|Timeout|Exception)' "$work/ctest.$name" >"$work/failures.$name"
 	return "$result"
 }
 
@@ -226,6 +227,12 @@ for line in "${lines[@]}"; do
 	echo "$line"
 	name=${line%% *}
 	[ -f "$work/summary.$name" ] && sed 's/^/          /' "$work/summary.$name"
+done
+for name in "${failed[@]}"; do
+	[ -s "$work/failures.$name" ] || continue
+	echo
+	echo "---- what failed in $name"
+	head -120 "$work/failures.$name"
 done
 if [ ${#failed[@]} -gt 0 ]; then
 	echo "FAILED: ${failed[*]}"

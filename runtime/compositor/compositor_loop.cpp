@@ -9,9 +9,6 @@ namespace arift
 namespace
 {
 
-/// How late a latch may be, of Pacer::Settings::margin.
-constexpr XrDuration latest = 700 * microsecond;
-
 } // namespace
 
 double processSeconds()
@@ -163,12 +160,12 @@ void Compositor::Loop::show(const Pacer::Refresh &refresh, Frame &frame)
 	log::info("key: {}", raw ? "the cameras alone are shown" : "holograms are shown again");
 }
 
-XrDuration Compositor::Loop::lateness(const Pacer::Refresh &refresh, XrTime now) const
+XrDuration Compositor::Loop::lateness(XrTime planned, XrTime now) const
 {
-	return rate_ > 0 && now > refresh.latch ? XrDuration(double(now - refresh.latch) / rate_) : 0;
+	return rate_ > 0 && now > planned ? XrDuration(double(now - planned) / rate_) : 0;
 }
 
-bool Compositor::Loop::frame(const Pacer::Refresh &refresh)
+bool Compositor::Loop::frame(const Pacer::Refresh &refresh, XrTime planned)
 {
 	Clock &clock = surroundings_.clock;
 	Frame frame;
@@ -180,11 +177,11 @@ bool Compositor::Loop::frame(const Pacer::Refresh &refresh)
 	panel_->render(frame.inputs);
 	for (size_t i = 0; i < frame.sources.size(); ++i) frame.sources[i]->shown(frame.contents[i]);
 	const XrTime rendered = realTime();
-	pacer_.composed(clock.now() - began);
+	pacer_.composed(clock.now() - planned);
 	show(refresh, frame);
 
 	const PanelRenderer::Cost cost = panel_->cost();
-	wakeLate = lateness(refresh, began);
+	wakeLate = lateness(planned, began);
 	choosing = chosen - realBegan;
 	planning = fromSeconds(cost.plan);
 	uploading = fromSeconds(cost.upload);
@@ -207,9 +204,9 @@ void Compositor::Loop::run(const std::stop_token &stop)
 		// On a machine that is always late no sleep is long enough to be ended by the stop request: it is asked for as well.
 		for (Pacer::Refresh refresh = pacer_.next(clock.now()); clock.sleepUntil(refresh.latch, stop) && !stop.stop_requested();
 			 refresh = pacer_.after(lastDisplay_, clock.now())) {
-			// Later than the margin allows for, the refresh planned cannot be reached any more: the next one can.
-			if (const XrTime now = clock.now(); now - refresh.latch > latest) refresh = pacer_.next(now);
-			if (!frame(refresh)) {
+			const XrTime planned = refresh.latch, now = clock.now();
+			if (!pacer_.reaches(refresh, now)) refresh = pacer_.next(now); // woken far too late
+			if (!frame(refresh, planned)) {
 				end.closed = true;
 				break;
 			}

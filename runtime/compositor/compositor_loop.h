@@ -73,8 +73,8 @@ private:
 	void record(const Frame &frame);
 	void trace(const Frame &frame, XrTime realBegan);
 	void hand(Frame &frame);
-	XrDuration lateness(const Pacer::Refresh &refresh, XrTime now) const;
-	bool frame(const Pacer::Refresh &refresh);
+	XrDuration lateness(XrTime planned, XrTime now) const;
+	bool frame(const Pacer::Refresh &refresh, XrTime planned);
 
 	const Surroundings surroundings_;
 	Pacer pacer_;

@@ -8,7 +8,6 @@ namespace arift
 namespace
 {
 
-constexpr double quantile = 0.9;
 constexpr XrDuration longestCostInPeriods = 4;
 // A phase-locked loop of second order, slow enough that a late answer of the window system hardly moves it.
 constexpr double phaseGain = 0.1, periodGain = 0.005;
@@ -21,7 +20,12 @@ constexpr uint32_t outliersForNewPhase = 8;
 } // namespace
 
 Pacer::Pacer(Settings settings, XrTime anyDisplayTime)
-	: settings_(settings), period_(double(settings.period)), phase_(0), origin_(anyDisplayTime), cost_(settings.firstCost)
+	: settings_(settings),
+	  period_(double(settings.period)),
+	  phase_(0),
+	  origin_(anyDisplayTime),
+	  cost_(settings.firstCost),
+	  usualCost_(settings.firstCost)
 {
 }
 
@@ -49,9 +53,10 @@ void Pacer::composed(XrDuration cost)
 	costs_[costCount_++ % keptCosts] = std::max<XrDuration>(cost, 0);
 	const size_t count = std::min(costCount_, keptCosts);
 	std::array<XrDuration, keptCosts> sorted = costs_;
-	const size_t index = std::min(count - 1, size_t(quantile * double(count)));
-	std::nth_element(sorted.begin(), sorted.begin() + ptrdiff_t(index), sorted.begin() + ptrdiff_t(count));
-	cost_ = std::min(sorted[index], longestCostInPeriods * settings_.period);
+	std::ranges::sort(sorted.begin(), sorted.begin() + ptrdiff_t(count));
+	// A refresh without a new image is seen at once; an image that waits a little for its refresh is not. One outlier is forgiven.
+	cost_ = std::min(sorted[count - std::min<size_t>(count, 2)], longestCostInPeriods * settings_.period);
+	usualCost_ = std::min(sorted[(count - 1) / 2], cost_);
 }
 
 void Pacer::displayed(XrTime display)

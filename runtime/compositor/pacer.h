@@ -37,14 +37,17 @@ public:
 	/// The refresh that follows `refresh`, as far as is known when its work begins: what an application woken then draws for.
 	Refresh following(const Refresh &refresh) const { return after(refresh.display, refresh.latch + cost() + 1); }
 
-	/// What composing an image cost, from the latch until it was finished.
+	/// Whether an image whose composing begins `now` can be there in time for `refresh`, should it cost what is usual.
+	bool reaches(const Refresh &refresh, XrTime now) const { return now + usualCost_ <= refresh.vblank; }
+
+	/// What composing an image cost, from the latch that was planned until it was finished: a thread that is woken late pays for it too.
 	void composed(XrDuration cost);
 	/// An image was seen at `display`, as measured. Follows the display's period and phase, and counts the refreshes without a new image.
 	void displayed(XrTime display);
 
 	/// Measured; the nominal one until it is.
 	XrDuration period() const { return std::llround(period_); }
-	/// What composing is expected to cost: nine of ten recent images took no longer; never more than four periods.
+	/// What composing is expected to cost: all but one of the last second's images took no longer; never more than four periods.
 	XrDuration cost() const { return cost_; }
 	uint64_t missed() const { return missed_; }
 
@@ -64,7 +67,7 @@ private:
 	uint32_t astray_ = 0; ///< measured times in a row that the grid does not explain
 	std::array<XrDuration, keptCosts> costs_{};
 	size_t costCount_ = 0;
-	XrDuration cost_;
+	XrDuration cost_, usualCost_; ///< usual: the median
 	uint64_t missed_ = 0;
 };
 

@@ -150,6 +150,25 @@ TEST(Pacer, anOutlierDoesNotChangeTheExpectedCost)
 	EXPECT_EQ(pacer.cost(), 4 * period);
 }
 
+TEST(Pacer, whatHappensMoreThanOnceASecondIsExpected)
+{
+	Pacer pacer(settings, 0);
+	for (int i = 0; i < 64; ++i) pacer.composed(i == 20 || i == 50 ? 9'000'000 : 4'000'000);
+	EXPECT_EQ(pacer.cost(), 9'000'000);
+	const Pacer::Refresh refresh = pacer.next(1'000'000'000);
+	EXPECT_EQ(refresh.vblank - refresh.latch, 9'000'000 + margin);
+}
+
+TEST(Pacer, aThreadWokenLateTriesAsLongAsTheUsualCostFits)
+{
+	Pacer pacer(settings, 0);
+	for (int i = 0; i < 64; ++i) pacer.composed(i % 4 == 0 ? 9'000'000 : 4'000'000);
+	const Pacer::Refresh refresh = pacer.next(1'000'000'000);
+	EXPECT_TRUE(pacer.reaches(refresh, refresh.latch));
+	EXPECT_TRUE(pacer.reaches(refresh, refresh.vblank - 4'000'000));
+	EXPECT_FALSE(pacer.reaches(refresh, refresh.vblank - 3'999'999));
+}
+
 TEST(Pacer, followsADisplayThatChangesItsPhase)
 {
 	Simulation simulation;

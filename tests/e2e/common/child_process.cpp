@@ -59,6 +59,18 @@ ChildProcess::~ChildProcess()
 	if (pid_ > 0) stop();
 }
 
+bool ChildProcess::stopsItself(std::chrono::milliseconds limit) const
+{
+	siginfo_t state{};
+	const auto deadline = std::chrono::steady_clock::now() + limit;
+	const auto hasStopped = [&] { return ::waitid(P_PID, id_t(pid_), &state, WSTOPPED | WNOHANG | WNOWAIT) == 0 && state.si_pid == pid_; };
+	while (!hasStopped()) {
+		if (std::chrono::steady_clock::now() >= deadline) return false;
+		std::this_thread::sleep_for(std::chrono::milliseconds(5));
+	}
+	return true;
+}
+
 bool ChildProcess::running() { return !wait(std::chrono::milliseconds(0)); }
 
 std::optional<int> ChildProcess::wait(std::chrono::milliseconds limit)

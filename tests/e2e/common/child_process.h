@@ -23,6 +23,8 @@ public:
 
 	int pid() const { return pid_; }
 	bool running();
+	/// Whether it stops itself (SIGSTOP) within so long.
+	bool stopsItself(std::chrono::milliseconds limit) const;
 	/// Exit status (128 + signal where one ended it) once the child has ended.
 	std::optional<int> wait(std::chrono::milliseconds limit);
 	/// Asks it to end; its exit status, or nothing where it had to be killed.

@@ -45,6 +45,14 @@ ProcessUsage settledUsage(int pid)
 	return now;
 }
 
+double stolenSeconds()
+{
+	std::string cpu;
+	double user = 0, nice = 0, system = 0, idle = 0, wait = 0, interrupts = 0, softInterrupts = 0, stolen = 0;
+	std::ifstream("/proc/stat") >> cpu >> user >> nice >> system >> idle >> wait >> interrupts >> softInterrupts >> stolen;
+	return stolen / double(::sysconf(_SC_CLK_TCK));
+}
+
 std::string describe(const ProcessUsage &usage)
 {
 	return fmt::format("{} descriptors, {} mappings, {} threads, {:.1f} MiB resident", usage.descriptors, usage.mappings, usage.threads,

@@ -14,6 +14,8 @@ struct ProcessUsage {
 ProcessUsage usageOf(int pid);
 /// The same once it stays for a moment: clients, threads and descriptors go with a connection, a moment after it.
 ProcessUsage settledUsage(int pid);
+/// Time for which a virtual machine's processors, all together, were ready to run and its host ran others, since its start.
+double stolenSeconds();
 /// For people.
 std::string describe(const ProcessUsage &usage);
 

@@ -20,12 +20,7 @@ constexpr std::array points{"before xrWaitFrame", "inside xrWaitFrame", "after x
 
 void sleep(double milliseconds) { std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(milliseconds)); }
 
-template <typename Condition> bool await(Condition holds)
-{
-	for (const XrTime end = realTime() + 60 * second; realTime() < end; sleep(2))
-		if (holds()) return true;
-	return false;
-}
+constexpr auto patience = std::chrono::seconds(60); // of a busy machine
 
 /// A service whose clock runs so slowly that composing takes at most half a refresh, with an application drawing: one for all tests.
 class Kills : public testing::Test
@@ -46,11 +41,6 @@ protected:
 	/// Lets the system's clock go on by a second.
 	void oneSecond() const { sleep(1000 / rate_); }
 	ChildProcess start(const char *point) const { return service_.start("stopping_application", {point, "5"}); }
-	/// Waits until so many applications have stopped themselves at their points: they write to one log.
-	static bool areStopped(const ChildProcess &any, size_t count)
-	{
-		return await([&] { return any.output().size() >= count * std::string_view("stopped\n").size(); });
-	}
 	bool isForgotten()
 	{
 		return eventually(service_, [](const auto &status) { return status["clients"].empty(); });
@@ -86,7 +76,8 @@ protected:
 		const std::string when = std::string(one) + ", " + other;
 		std::vector<ChildProcess> applications;
 		for (const char *point : {one, other}) applications.push_back(start(point));
-		EXPECT_TRUE(areStopped(applications.front(), 2)) << when << "\n" << applications.front().output();
+		for (const ChildProcess &application : applications)
+			EXPECT_TRUE(application.stopsItself(patience)) << when << "\n" << application.output();
 		expectTheWorld(service_, when);
 		service_.status(true);
 		for (ChildProcess &application : applications) kill(application);
@@ -96,46 +87,54 @@ protected:
 		return gaps;
 	}
 	/// Gaps in a second from now, during which no image may be without the cameras. Nothing where others kept the machine so busy that
-	/// composing took longer than half a refresh: then gaps say nothing of applications.
+	/// composing took longer than half a refresh, or the machine's host had it stand still: then gaps say nothing of applications.
 	std::optional<int> gapsInASecond(const char *when)
 	{
+		const double stolenBefore = stolenSeconds();
+		const XrTime began = realTime();
 		oneSecond();
 		const auto frames = service_.status()["frames"];
+		const double stolen = (stolenSeconds() - stolenBefore) * double(second) / double(realTime() - began);
 		EXPECT_GT(frames["shown"].get<int>(), 5) << when;
 		EXPECT_EQ(frames["withoutCamera"], 0) << when;
-		if (frames["composeMs"]["p99"].get<double>() * rate_ > refreshPeriod / 2) return std::nullopt;
+		if (frames["composeMs"]["p99"].get<double>() * rate_ > refreshPeriod / 2 || stolen > 0.05) return std::nullopt;
 		return frames["gaps"];
 	}
-	/// Gaps per second that can be judged, and how many those are.
-	struct Rate {
-		double gaps = 0;
-		int seconds = 0;
+	/// Gaps per second, of the seconds that can be judged.
+	struct Gaps {
+		int all = 0, most = 0, judged = 0, unjudged = 0;
+		void add(std::optional<int> gaps)
+		{
+			if (!gaps) {
+				unjudged++;
+				return;
+			}
+			judged++, all += *gaps, most = std::max(most, *gaps);
+		}
+		double mean() const { return judged ? double(all) / judged : 0; }
+		void print(const char *when) const
+		{
+			fmt::print(stderr, "[ FIGURE   ] {}: {} gaps in {} seconds, at most {} in one; in {} more the machine was too busy to say\n",
+					   when, all, judged, most, unjudged);
+		}
 	};
-	static Rate rateOf(const std::vector<std::optional<int>> &seconds, const char *when)
+	/// At most one gap in a second in which something happens, less those of as many seconds in which nothing does: the machine's own.
+	/// Few seconds say little on a machine that others use too: where they are against us, up to four times as many are looked at.
+	template <typename Second> void judge(const char *when, int seconds, Second second)
 	{
-		int all = 0, most = 0, judged = 0;
-		for (const auto &gaps : seconds) {
-			if (!gaps) continue;
-			judged++;
-			all += *gaps;
-			most = std::max(most, *gaps);
+		Gaps with, without;
+		const auto excess = [&] { return with.mean() - without.mean(); };
+		for (int round = 0; round < 4 && (round == 0 || excess() > 1); ++round) {
+			for (int i = 0; i < seconds; ++i) with.add(second());
+			if (excess() <= 1) break;
+			for (int i = 0; i < seconds; ++i) {
+				service_.status(true);
+				without.add(gapsInASecond("nothing happens"));
+			}
 		}
-		fmt::print(stderr, "[ FIGURE   ] {}: {} gaps in {} seconds, at most {} in one; in {} more the machine was too busy to say\n", when,
-				   all, judged, most, int(seconds.size()) - judged);
-		return {judged ? double(all) / judged : 0, judged};
-	}
-	/// Less those of as many seconds in which nothing happens: the machine's own.
-	void judge(const std::vector<std::optional<int>> &seconds, const char *when)
-	{
-		const Rate with = rateOf(seconds, when);
-		if (with.gaps <= 1) return;
-		std::vector<std::optional<int>> quiet;
-		for (size_t i = 0; i < seconds.size(); ++i) {
-			service_.status(true);
-			quiet.push_back(gapsInASecond("nothing happens"));
-		}
-		const Rate without = rateOf(quiet, "an equal run without");
-		if (without.seconds > 0) { EXPECT_LE(with.gaps - without.gaps, 1) << when; }
+		with.print(when);
+		if (without.judged + without.unjudged > 0) without.print("equal seconds without");
+		EXPECT_LE(excess(), 1) << when;
 	}
 
 	static inline double rate_ = 1; ///< of the clock
@@ -152,11 +151,12 @@ TEST_F(Kills, FiftyKillsLeaveNoGapAndNothingBehind)
 	killAnywhere(5, random); // they only fill the allocator's caches
 	const ProcessUsage before = settledUsage(service_.process().pid());
 	killAnywhere(40, random);
-	std::vector<std::optional<int>> gaps;
-	for (size_t i = 0; i < points.size(); i += 2) gaps.push_back(killTwoAt(points[i], points[i + 1]));
+	judge("a second after two kills", int(points.size() / 2), [&, next = size_t(0)]() mutable {
+		const size_t point = std::exchange(next, (next + 2) % points.size());
+		return killTwoAt(points[point], points[point + 1]);
+	});
 	const ProcessUsage after = settledUsage(service_.process().pid());
 	fmt::print(stderr, "[ FIGURE   ] before 50 kills {}\n[ FIGURE   ] after them {}\n", describe(before), describe(after));
-	judge(gaps, "a second after two kills");
 	EXPECT_EQ(after.descriptors, before.descriptors);
 	EXPECT_EQ(after.threads, before.threads);
 	EXPECT_LE(after.mappings, before.mappings);
@@ -167,9 +167,11 @@ TEST_F(Kills, FiftyKillsLeaveNoGapAndNothingBehind)
 TEST_F(Kills, AHungApplicationIsLeftOutAndGoesOnLater)
 {
 	ChildProcess application = start("image released");
-	ASSERT_TRUE(areStopped(application, 1)) << application.output();
-	service_.status(true);
-	judge({gapsInASecond("hung")}, "an application hangs");
+	ASSERT_TRUE(application.stopsItself(patience)) << application.output();
+	judge("an application hangs", 2, [&] {
+		service_.status(true);
+		return gapsInASecond("hung");
+	});
 	expectTheWorld(service_, "hung");
 	const uint64_t before = submittedIn(service_.status());
 	::kill(application.pid(), SIGCONT);
@@ -182,7 +184,9 @@ TEST_F(Kills, AConnectionThatSaysNothingIsNoBurden)
 {
 	std::vector<ipc::Socket> silent;
 	for (int i = 0; i < 8; ++i) silent.push_back(connectTo(service_.tree()).value());
-	service_.status(true);
-	judge({gapsInASecond("silent connections")}, "eight connections that say nothing");
+	judge("eight connections that say nothing", 2, [&] {
+		service_.status(true);
+		return gapsInASecond("silent connections");
+	});
 	expectTheWorld(service_, "silent connections");
 }

@@ -1,5 +1,5 @@
 // A small OpenXR application that shows a transparent image, and stops where it is told to:   stopping_application POINT FRAMES
-// It prints "stopped" and stops itself at the named point of the frame after FRAMES frames; at the point "never" it goes on for ever.
+// It stops itself when it is first at the named point after FRAMES frames; at the point "never" it goes on for ever.
 #include "tests/e2e/common/drawing_application.h" // first: with OpenXR's functions
 
 #include "runtime/ipc/messages.h"
@@ -18,16 +18,12 @@ namespace
 using arift::ipc::MessageType;
 
 std::string_view stopPoint = "never";
-std::atomic<bool> lastFrame = false;
-
-void stopHere()
-{
-	if (::write(STDOUT_FILENO, "stopped\n", 8) == 8) ::raise(SIGSTOP);
-}
+std::atomic<bool> mayStop = false; ///< for good once it does: what a frame submits may be sent when the next one has begun
+std::atomic<bool> hasStopped = false;
 
 void pass(std::string_view point)
 {
-	if (lastFrame && point == stopPoint) stopHere();
+	if (mayStop && point == stopPoint && !hasStopped.exchange(true)) ::raise(SIGSTOP);
 }
 
 } // namespace
@@ -73,7 +69,7 @@ public:
 private:
 	void frame() override
 	{
-		lastFrame = frames_-- == 0;
+		if (frames_-- == 0) mayStop = true;
 		pass("before xrWaitFrame");
 		XrFrameState state{XR_TYPE_FRAME_STATE};
 		check(xrWaitFrame(session_, nullptr, &state), "xrWaitFrame");
@@ -95,7 +91,7 @@ private:
 		const XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr, XR_INFINITE_DURATION};
 		check(xrWaitSwapchainImage(images_.handle(), &wait), "xrWaitSwapchainImage");
 		pass("image waited for");
-		const bool pending = lastFrame && (stopPoint == "work submitted" || stopPoint == "image released");
+		const bool pending = mayStop && !hasStopped && (stopPoint == "work submitted" || stopPoint == "image released");
 		queue_.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &*commands_[2 * index + (pending ? 1 : 0)]});
 		pass("work submitted");
 		images_.release();

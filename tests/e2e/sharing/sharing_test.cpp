@@ -187,10 +187,7 @@ TEST(KilledWhileCopying, NothingIsLeftBehind)
 	PrivateService service(quietWorld("copy"));
 	const auto run = [&](const char *point) {
 		ChildProcess application = service.start("stopping_application", {point, "4"});
-		const XrTime limit = realTime() + patience;
-		while (!application.output().ends_with("stopped\n") && realTime() < limit)
-			std::this_thread::sleep_for(std::chrono::milliseconds(5));
-		EXPECT_TRUE(application.output().ends_with("stopped\n")) << point << ": " << application.output();
+		EXPECT_TRUE(application.stopsItself(std::chrono::minutes(1))) << point << ": " << application.output();
 		EXPECT_EQ(service.status()["clients"].at(0)["swapchains"].at(0)["copied"], true);
 		::kill(application.pid(), SIGKILL);
 		application.wait(std::chrono::seconds(10));
