@@ -1,5 +1,6 @@
 #include "drivers/registry.h"
 #include "drivers/dk1/presence.h"
+#include "drivers/evdev/devices.h"
 #include "drivers/replay/driver.h"
 #include "drivers/synthetic/driver.h"
 #include "runtime/base/error.h"
@@ -47,6 +48,22 @@ std::unique_ptr<Driver> makeDriver(const std::string &name, const DriverContext 
 		known += fmt::format(", \"{}\"", entry.name);
 	}
 	throw InputError("driver \"{}\" is unknown, expected one of {}", name, known);
+}
+
+std::vector<InputDeviceInfo> listInputDevices(const InputPlaces &places, const std::vector<std::string> &wanted)
+{
+	return evdev::describeNodes({places.devices, places.sysfs}, wanted);
+}
+
+std::unique_ptr<InputDevices> makeInputDevices(const InputPlaces &places, const std::vector<std::string> &wanted)
+{
+	return std::make_unique<evdev::Devices>(evdev::Places{places.devices, places.sysfs}, wanted);
+}
+
+std::optional<KeyCode> keyNamed(const std::string &name)
+{
+	const int code = libevdev_event_code_from_name(EV_KEY, name.c_str());
+	return code > 0 ? std::optional(KeyCode(code)) : std::nullopt;
 }
 
 } // namespace arift

@@ -1,6 +1,7 @@
 // Every driver there is, by name.
 #pragma once
 #include "runtime/device/driver.h"
+#include "runtime/device/input_devices.h"
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -28,5 +29,20 @@ std::optional<PluggedHeadset> findPluggedHeadset(const std::filesystem::path &sy
 /// "auto" takes the first of them, for no driver of hardware that could be plugged in is built in yet. Opens no device yet. Throws
 /// InputError for an unknown name and for wrong settings. The context's clock outlives the driver and its devices.
 std::unique_ptr<Driver> makeDriver(const std::string &name, const DriverContext &context);
+
+// ---- keyboards, mice, gamepads
+
+/// Where the system lists them: its own places, or a test's.
+struct InputPlaces {
+	std::filesystem::path devices = "/dev/input";
+	std::filesystem::path sysfs = "/sys";
+};
+/// All that there are, for people; `wanted` are names (* and ? stand for any text and any character) of those that are switched on. Opens
+/// nothing.
+std::vector<InputDeviceInfo> listInputDevices(const InputPlaces &places, const std::vector<std::string> &wanted);
+/// Reads those that are wanted, now and later. Throws std::system_error when the process has no descriptors left.
+std::unique_ptr<InputDevices> makeInputDevices(const InputPlaces &places, const std::vector<std::string> &wanted);
+/// Of a name that Linux gives it: KEY_SPACE, BTN_LEFT.
+std::optional<KeyCode> keyNamed(const std::string &name);
 
 } // namespace arift
