@@ -11,7 +11,7 @@ namespace arift::ipc
 {
 
 constexpr uint32_t magic = 0x54465241; // "ARFT"
-constexpr uint32_t protocol = 5;       // raised with every change of this file, of pages.h or of PoseRing
+constexpr uint32_t protocol = 6;       // raised with every change of this file, of pages.h or of PoseRing
 /// Real time in which the service has opened its devices and answers Hello and CreateSession: a second or two, much more on a machine that
 /// is busy otherwise. Clients wait a little longer than this, so that they hear its reason.
 constexpr XrDuration openingLimit = 60 * second;
@@ -193,20 +193,49 @@ struct SubImage {
 	int32_t width = 0, height = 0;
 	uint32_t release = 0; ///< how often the image had been released: its content is the same while this is; 0: who knows
 };
-enum class LayerType : uint32_t { projection, quad };
+enum class LayerType : uint32_t { projection, quad, cylinder, equirect, cube };
 enum class LayerFrame : uint32_t { origin /**< fixed in the world */, head /**< moves with the head (VIEW space) */ };
+/// XR_KHR_composition_layer_depth. 1 / distance ahead of the view (metres) = inverseBias + inverseScale * value in the image.
+struct ViewDepth {
+	SubImage image; ///< its swapchain is 0: there is no depth
+	float inverseBias = 0, inverseScale = 0;
+};
 struct LayerView {
 	XrPosef pose = identityPose; ///< of the view in the layer's frame
 	XrFovf fov{};
 	SubImage image;
+	ViewDepth depth;
+};
+/// The inside of a cylinder about y, or of a sphere. Texture coordinates are 0..1 over the image, its first row 0; angles to the right and
+/// up from -z. Cylinder: v by height in radii; equirect: v by angle.
+struct CurvedSurface {
+	float radius = 0; ///< metres; 0: infinitely far
+	XrVector2f uvAhead{0, 0}, uvPerUnit{0, 0};
+};
+/// XR_FB_composition_layer_alpha_blend: XrBlendFactorFB each.
+struct BlendFactors {
+	uint32_t given = 0; ///< 0: the layer's flags say how it is blended
+	uint32_t sourceColor = 0, destinationColor = 0, sourceAlpha = 0, destinationAlpha = 0;
+};
+/// XR_FB_composition_layer_depth_test, XR_VARJO_composition_layer_depth_test: against what was nearest so far.
+struct DepthTest {
+	uint32_t given = 0;              ///< 0: the layer is drawn over what is below
+	uint32_t compareOp = 0;          ///< XrCompareOpFB
+	uint32_t writes = 0;             ///< 1: what passes is the nearest from then on
+	float nearest = 0, farthest = 0; ///< metres: outside, everything passes; farthest 0: there is no such end
 };
 struct Layer {
 	LayerType type = LayerType::projection;
 	LayerFrame frame = LayerFrame::origin;
 	uint32_t flags = 0;             ///< XrCompositionLayerFlags
 	uint32_t eyes = 3;              ///< bit 0 left, bit 1 right
-	std::array<LayerView, 2> views; ///< projection: both; quad: views[0].image and views[0].pose (the quad's centre)
+	std::array<LayerView, 2> views; ///< projection: both; else views[0].image and views[0].pose: the centre (cube: where it turns to;
+									///< its image's arrayIndex counts cubes, its rectangle is a whole face)
 	float width = 0, height = 0;    ///< quad: metres
+	CurvedSurface curved;           ///< cylinder, equirect
+	XrColor4f colorScale{1, 1, 1, 1}, colorBias{0, 0, 0, 0}; ///< of straight colour, before blending
+	BlendFactors blend;
+	DepthTest depthTest;
 };
 /// Sent when all work on the images it names is finished. Only the first `layerCount` layers are sent.
 struct Submission {

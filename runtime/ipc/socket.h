@@ -21,7 +21,7 @@ enum class Transfer {
 	malformed ///< a message longer than any of ours; it was dropped whole and its descriptors closed
 };
 
-constexpr size_t maxMessageSize = 16384;
+constexpr size_t maxMessageSize = 32768;
 static_assert(sizeof(Submission) <= maxMessageSize);
 
 /// A message as it came, with the descriptors it carried. Descriptors nobody takes are closed with it.

@@ -48,6 +48,9 @@ ARIFT_STRUCTURE(XrSystemHeadsetIdPropertiesMETA, XR_TYPE_SYSTEM_HEADSET_ID_PROPE
 #ifdef ARIFT_SUPPLIES_XR_FB_composition_layer_settings
 ARIFT_STRUCTURE(XrCompositionLayerSettingsFB, XR_TYPE_COMPOSITION_LAYER_SETTINGS_FB)
 #endif
+#ifdef ARIFT_SUPPLIES_XR_FB_composition_layer_depth_test
+ARIFT_STRUCTURE(XrCompositionLayerDepthTestFB, XR_TYPE_COMPOSITION_LAYER_DEPTH_TEST_FB)
+#endif
 #undef ARIFT_STRUCTURE
 
 /// The first T in a chain of structures, or null.

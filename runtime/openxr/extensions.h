@@ -31,8 +31,17 @@ namespace arift::openxr
 	X(EXT_uuid)                                                                                                                            \
 	X(MSFT_unbounded_reference_space)                                                                                                      \
 	X(FB_color_space)                                                                                                                      \
+	X(KHR_composition_layer_color_scale_bias)                                                                                              \
+	X(KHR_composition_layer_cube)                                                                                                          \
+	X(KHR_composition_layer_cylinder)                                                                                                      \
+	X(KHR_composition_layer_depth)                                                                                                         \
+	X(KHR_composition_layer_equirect)                                                                                                      \
+	X(KHR_composition_layer_equirect2)                                                                                                     \
+	X(FB_composition_layer_alpha_blend)                                                                                                    \
+	X(FB_composition_layer_depth_test)                                                                                                     \
 	X(FB_composition_layer_settings)                                                                                                       \
 	X(FB_display_refresh_rate)                                                                                                             \
+	X(VARJO_composition_layer_depth_test)                                                                                                  \
 	X(META_headset_id)                                                                                                                     \
 	X(META_performance_metrics)                                                                                                            \
 	X(EXT_hand_interaction)                                                                                                                \

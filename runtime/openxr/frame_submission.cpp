@@ -1,5 +1,14 @@
 #include "runtime/openxr/frame_submission.h"
+#include "runtime/openxr/ext/fb_composition_layer_alpha_blend.h"
+#include "runtime/openxr/ext/fb_composition_layer_depth_test.h"
 #include "runtime/openxr/ext/fb_composition_layer_settings.h"
+#include "runtime/openxr/ext/khr_composition_layer_color_scale_bias.h"
+#include "runtime/openxr/ext/khr_composition_layer_cube.h"
+#include "runtime/openxr/ext/khr_composition_layer_cylinder.h"
+#include "runtime/openxr/ext/khr_composition_layer_depth.h"
+#include "runtime/openxr/ext/khr_composition_layer_equirect.h"
+#include "runtime/openxr/ext/khr_composition_layer_equirect2.h"
+#include "runtime/openxr/ext/varjo_composition_layer_depth_test.h"
 #include "runtime/openxr/swapchain.h"
 #include <numbers>
 
@@ -90,12 +99,36 @@ void FrameSubmission::addLayer(const XrCompositionLayerBaseHeader *header)
 {
 	if (!header) throw Error(XR_ERROR_LAYER_INVALID, "a layer is null");
 	if (!session_.graphics()) return; // a headless session shows nothing
-	if (session_.instance.has(Extension::FB_composition_layer_settings)) requireLayerSettings(header->next);
+	const auto has = [this](Extension extension) { return session_.instance.has(extension); };
+	if (has(Extension::FB_composition_layer_settings)) requireLayerSettings(header->next);
 	switch (header->type) {
 	case XR_TYPE_COMPOSITION_LAYER_PROJECTION: return addProjection(reinterpret_cast<const XrCompositionLayerProjection &>(*header));
 	case XR_TYPE_COMPOSITION_LAYER_QUAD: return addQuad(reinterpret_cast<const XrCompositionLayerQuad &>(*header));
-	default: throw Error(XR_ERROR_LAYER_INVALID, "layers of XrStructureType {} are not supported", int(header->type));
+	case XR_TYPE_COMPOSITION_LAYER_CYLINDER_KHR:
+		if (!has(Extension::KHR_composition_layer_cylinder)) break;
+		return addCurved(reinterpret_cast<const XrCompositionLayerCylinderKHR &>(*header), ipc::LayerType::cylinder, "a cylinder layer");
+	case XR_TYPE_COMPOSITION_LAYER_EQUIRECT_KHR:
+		if (!has(Extension::KHR_composition_layer_equirect)) break;
+		return addCurved(reinterpret_cast<const XrCompositionLayerEquirectKHR &>(*header), ipc::LayerType::equirect, "an equirect layer");
+	case XR_TYPE_COMPOSITION_LAYER_EQUIRECT2_KHR:
+		if (!has(Extension::KHR_composition_layer_equirect2)) break;
+		return addCurved(reinterpret_cast<const XrCompositionLayerEquirect2KHR &>(*header), ipc::LayerType::equirect, "an equirect layer");
+	case XR_TYPE_COMPOSITION_LAYER_CUBE_KHR:
+		if (!has(Extension::KHR_composition_layer_cube)) break;
+		return addCube(reinterpret_cast<const XrCompositionLayerCubeKHR &>(*header));
+	default: break;
 	}
+	throw Error(XR_ERROR_LAYER_INVALID, "layers of XrStructureType {} are not supported, or not enabled", int(header->type));
+}
+
+ipc::Layer FrameSubmission::layerWith(const void *next) const
+{
+	const Instance &instance = session_.instance;
+	ipc::Layer layer;
+	if (instance.has(Extension::KHR_composition_layer_color_scale_bias)) applyColorScaleBias(layer, next);
+	if (instance.has(Extension::FB_composition_layer_alpha_blend)) applyBlendFactors(layer, next);
+	if (instance.has(Extension::FB_composition_layer_depth_test)) applyDepthTest(layer, next);
+	return layer;
 }
 
 std::optional<XrPosef> FrameSubmission::place(ipc::Layer &layer, XrSpace handle, const XrPosef &given, const char *what)
@@ -112,7 +145,8 @@ std::optional<XrPosef> FrameSubmission::place(ipc::Layer &layer, XrSpace handle,
 
 void FrameSubmission::addProjection(const XrCompositionLayerProjection &projection)
 {
-	ipc::Layer layer;
+	ipc::Layer layer = layerWith(projection.next);
+	if (session_.instance.has(Extension::VARJO_composition_layer_depth_test)) applyDepthTestRange(layer, projection.next);
 	layer.type = ipc::LayerType::projection;
 	layer.flags = requireFlags(projection.layerFlags);
 	if (projection.viewCount != 2 || !projection.views)
@@ -124,30 +158,74 @@ void FrameSubmission::addProjection(const XrCompositionLayerProjection &projecti
 		requireFov(view.fov);
 		const auto pose = place(layer, projection.space, view.pose, "a projection layer's view");
 		isPlaced = isPlaced && pose;
-		layer.views[eye] = {pose.value_or(identityPose), view.fov, subImage(view.subImage)};
+		layer.views[eye] = {pose.value_or(identityPose), view.fov, subImage(view.subImage, ImageKind::flat)};
+		addDepth(layer.views[eye], view.next);
 	}
+	// What has no depth is not tested for it.
+	if (layer.views[0].depth.image.swapchain == 0 || layer.views[1].depth.image.swapchain == 0) layer.depthTest = {};
 	if (isPlaced) submission.layers[submission.layerCount++] = layer;
+}
+
+void FrameSubmission::addDepth(ipc::LayerView &view, const void *next)
+{
+	if (!session_.instance.has(Extension::KHR_composition_layer_depth)) return;
+	const auto *info = findInChain<XrCompositionLayerDepthInfoKHR>(next);
+	if (!info) return;
+	ipc::ViewDepth depth = depthOf(*info);
+	depth.image = subImage(info->subImage, ImageKind::depth);
+	if (std::abs(depth.inverseBias) < farthest && std::abs(depth.inverseScale) < farthest) view.depth = depth;
 }
 
 void FrameSubmission::addQuad(const XrCompositionLayerQuad &quad)
 {
-	ipc::Layer layer;
+	ipc::Layer layer = layerWith(quad.next);
 	layer.type = ipc::LayerType::quad;
-	layer.flags = requireFlags(quad.layerFlags);
-	layer.eyes = eyesOf(quad.eyeVisibility);
 	if (!std::isfinite(quad.size.width) || !std::isfinite(quad.size.height))
 		throw Error(XR_ERROR_VALIDATION_FAILURE, "a quad layer has the size {} x {} m", quad.size.width, quad.size.height);
+	const auto isExtent = [](float size) { return size > 0 && size < farthest; };
 	layer.width = quad.size.width;
 	layer.height = quad.size.height;
-	const auto pose = place(layer, quad.space, quad.pose, "a quad layer");
-	layer.views[0] = {pose.value_or(identityPose), {}, subImage(quad.subImage)};
-	layer.views[1] = layer.views[0];
-	const auto isExtent = [](float size) { return size > 0 && size < farthest; };
-	const bool hasArea = isExtent(quad.size.width) && isExtent(quad.size.height);
-	if (pose && hasArea) submission.layers[submission.layerCount++] = layer;
+	addPlaced(layer, {"a quad layer", quad.layerFlags, quad.eyeVisibility, quad.space, quad.pose, quad.subImage},
+			  isExtent(quad.size.width) && isExtent(quad.size.height));
 }
 
-ipc::SubImage FrameSubmission::subImage(const XrSwapchainSubImage &given)
+template <typename Layer> void FrameSubmission::addCurved(const Layer &curved, ipc::LayerType type, const char *what)
+{
+	ipc::Layer layer = layerWith(curved.next);
+	layer.type = type;
+	const auto surface = surfaceOf(curved);
+	layer.curved = surface.value_or(ipc::CurvedSurface{});
+	addPlaced(layer, {what, curved.layerFlags, curved.eyeVisibility, curved.space, curved.pose, curved.subImage}, surface.has_value());
+}
+
+void FrameSubmission::addCube(const XrCompositionLayerCubeKHR &cube)
+{
+	ipc::Layer layer = layerWith(cube.next);
+	layer.type = ipc::LayerType::cube;
+	layer.depthTest = {}; // it is infinitely far away
+	const Swapchain &swapchain = handles.at<Swapchain>(cube.swapchain);
+	addPlaced(layer,
+			  {"a cube layer",
+			   cube.layerFlags,
+			   cube.eyeVisibility,
+			   cube.space,
+			   {cube.orientation, {0, 0, 0}},
+			   wholeFaceOf(cube, swapchain),
+			   ImageKind::cube},
+			  true);
+}
+
+void FrameSubmission::addPlaced(ipc::Layer layer, const Place &given, bool hasExtent)
+{
+	layer.flags = requireFlags(given.flags);
+	layer.eyes = eyesOf(given.eyes);
+	const auto pose = place(layer, given.space, given.pose, given.what);
+	layer.views[0] = {pose.value_or(identityPose), {}, subImage(given.image, given.kind)};
+	layer.views[1] = layer.views[0];
+	if (pose && hasExtent) submission.layers[submission.layerCount++] = layer;
+}
+
+ipc::SubImage FrameSubmission::subImage(const XrSwapchainSubImage &given, ImageKind kind)
 {
 	Swapchain &swapchain = handles.at<Swapchain>(given.swapchain);
 	if (&swapchain.session != &session_) throw Error(XR_ERROR_VALIDATION_FAILURE, "a layer's swapchain belongs to another session");
@@ -158,10 +236,14 @@ ipc::SubImage FrameSubmission::subImage(const XrSwapchainSubImage &given)
 	if (!fits)
 		throw Error(XR_ERROR_SWAPCHAIN_RECT_INVALID, "the rectangle {}x{} at ({}, {}) does not lie in the image of {}x{}", extent.width,
 					extent.height, offset.x, offset.y, spec.width, spec.height);
-	if (given.imageArrayIndex >= spec.arrayLayers)
-		throw Error(XR_ERROR_VALIDATION_FAILURE, "imageArrayIndex {} is not below {}", given.imageArrayIndex, spec.arrayLayers);
-	if (swapchain.isCube() || gpu::isDepth(VkFormat(spec.format)))
-		throw Error(XR_ERROR_LAYER_INVALID, "a cube or depth image cannot be shown as a flat one");
+	const uint32_t arraySize = swapchain.isCube() ? spec.arrayLayers / 6 : spec.arrayLayers;
+	if (given.imageArrayIndex >= arraySize)
+		throw Error(XR_ERROR_VALIDATION_FAILURE, "imageArrayIndex {} is not below {}", given.imageArrayIndex, arraySize);
+	if (swapchain.isCube() != (kind == ImageKind::cube))
+		throw Error(XR_ERROR_LAYER_INVALID, "a cube is shown by cube layers, which show nothing else: the swapchain has {} array layers",
+					spec.arrayLayers);
+	if (gpu::isDepth(VkFormat(spec.format)) != (kind == ImageKind::depth))
+		throw Error(XR_ERROR_LAYER_INVALID, "depth is no colour and colour no depth: the swapchain has VkFormat {}", spec.format);
 	const auto newest = swapchain.newestImage();
 	if (!newest) throw Error(XR_ERROR_LAYER_INVALID, "a layer shows a swapchain of which no image was released");
 	uses_.push_back({&swapchain, newest->image});

@@ -24,12 +24,31 @@ private:
 		Swapchain *swapchain;
 		uint32_t image;
 	};
+	/// What a layer shows; an image of the swapchain must be of that kind.
+	enum class ImageKind { flat, cube, depth };
+	/// What layers that stand somewhere have in common.
+	struct Place {
+		const char *what; ///< for messages
+		XrCompositionLayerFlags flags;
+		XrEyeVisibility eyes;
+		XrSpace space;
+		XrPosef pose;
+		XrSwapchainSubImage image;
+		ImageKind kind = ImageKind::flat;
+	};
 	void addLayer(const XrCompositionLayerBaseHeader *header);
+	/// What extensions say of layers of every kind.
+	ipc::Layer layerWith(const void *next) const;
 	void addProjection(const XrCompositionLayerProjection &projection);
 	void addQuad(const XrCompositionLayerQuad &quad);
+	void addCube(const XrCompositionLayerCubeKHR &cube);
+	template <typename Layer> void addCurved(const Layer &curved, ipc::LayerType type, const char *what);
+	/// `layer`: its place is missing yet. One that has no place now or no extent is checked and left out.
+	void addPlaced(ipc::Layer layer, const Place &place, bool hasExtent);
+	void addDepth(ipc::LayerView &view, const void *next);
 	/// Frame and pose of a layer in the message; nothing when its space has no place now and the layer is not shown.
 	std::optional<XrPosef> place(ipc::Layer &layer, XrSpace space, const XrPosef &pose, const char *what);
-	ipc::SubImage subImage(const XrSwapchainSubImage &image);
+	ipc::SubImage subImage(const XrSwapchainSubImage &image, ImageKind kind);
 
 	Session &session_;
 	Locator locator_;

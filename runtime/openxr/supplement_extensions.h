@@ -197,3 +197,28 @@ typedef struct XrCompositionLayerSettingsFB {
 } XrCompositionLayerSettingsFB;
 #define ARIFT_SUPPLIES_XR_FB_composition_layer_settings 1
 #endif
+
+// ---- XR_FB_composition_layer_depth_test
+#ifndef XR_FB_composition_layer_depth_test
+#define XR_FB_composition_layer_depth_test 1
+#define XR_FB_composition_layer_depth_test_SPEC_VERSION 1
+constexpr XrStructureType XR_TYPE_COMPOSITION_LAYER_DEPTH_TEST_FB = XrStructureType(1000212000);
+typedef enum XrCompareOpFB {
+	XR_COMPARE_OP_NEVER_FB = 0,
+	XR_COMPARE_OP_LESS_FB = 1,
+	XR_COMPARE_OP_EQUAL_FB = 2,
+	XR_COMPARE_OP_LESS_OR_EQUAL_FB = 3,
+	XR_COMPARE_OP_GREATER_FB = 4,
+	XR_COMPARE_OP_NOT_EQUAL_FB = 5,
+	XR_COMPARE_OP_GREATER_OR_EQUAL_FB = 6,
+	XR_COMPARE_OP_ALWAYS_FB = 7,
+	XR_COMPARE_OP_MAX_ENUM_FB = 0x7FFFFFFF
+} XrCompareOpFB;
+typedef struct XrCompositionLayerDepthTestFB {
+	XrStructureType type;
+	const void *XR_MAY_ALIAS next;
+	XrBool32 depthMask;
+	XrCompareOpFB compareOp;
+} XrCompositionLayerDepthTestFB;
+#define ARIFT_SUPPLIES_XR_FB_composition_layer_depth_test 1
+#endif

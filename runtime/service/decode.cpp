@@ -68,17 +68,22 @@ template <typename M> M checked(const ipc::Received &received)
 	return message;
 }
 
-void checkImage(const ipc::SubImage &image, const FindSwapchain &find)
+void checkImage(const ipc::SubImage &image, SwapchainShape::Kind kind, const FindSwapchain &find)
 {
 	const auto shape = find(image.swapchain);
 	require(shape.has_value(), "layer names an unknown swapchain");
+	require(shape->kind == kind, "layer names a swapchain of another kind");
 	require(image.image < shape->imageCount, "layer names an image its swapchain has not");
-	require(image.arrayIndex < shape->arrayLayers, "layer names an array layer its swapchain has not");
+	const uint32_t arraySize = kind == SwapchainShape::Kind::cube ? shape->arrayLayers / 6 : shape->arrayLayers;
+	require(image.arrayIndex < arraySize, "layer names an array layer its swapchain has not");
 	require(image.x >= 0 && image.y >= 0 && image.width > 0 && image.height > 0, "layer rectangle is empty or begins outside");
 	// 64-bit sums: two large positive numbers must not wrap round to a small one.
 	require(int64_t(image.x) + image.width <= int64_t(shape->width) && int64_t(image.y) + image.height <= int64_t(shape->height),
 			"layer rectangle reaches beyond its image");
 }
+
+bool isWithin(float number, float most) { return std::isfinite(number) && std::abs(number) <= most; }
+constexpr float farthest = 1e6f;
 
 /// OpenXR 1.1, XrFovf: angles of a half space each; a view without extent shows nothing and divides by nothing.
 void checkFov(const XrFovf &fov)
@@ -92,27 +97,59 @@ void checkFov(const XrFovf &fov)
 void checkPose(const XrPosef &pose)
 {
 	require(isValidPose(pose), "layer pose is invalid");
-	require(std::abs(pose.position.x) < 1e6f && std::abs(pose.position.y) < 1e6f && std::abs(pose.position.z) < 1e6f,
+	require(std::abs(pose.position.x) < farthest && std::abs(pose.position.y) < farthest && std::abs(pose.position.z) < farthest,
 			"layer pose is too far away");
+}
+
+void checkView(const ipc::LayerView &view, const FindSwapchain &find)
+{
+	checkPose(view.pose);
+	checkFov(view.fov);
+	checkImage(view.image, SwapchainShape::Kind::flat, find);
+	const ipc::ViewDepth &depth = view.depth;
+	if (depth.image.swapchain == 0) return;
+	checkImage(depth.image, SwapchainShape::Kind::depth, find);
+	require(isWithin(depth.inverseBias, farthest) && isWithin(depth.inverseScale, farthest), "layer depth out of range");
+}
+
+void checkCurved(const ipc::CurvedSurface &surface)
+{
+	require(surface.radius >= 0 && isWithin(surface.radius, farthest), "layer radius out of range");
+	for (const float number : {surface.uvAhead.x, surface.uvAhead.y, surface.uvPerUnit.x, surface.uvPerUnit.y})
+		require(isWithin(number, farthest), "layer texture coordinates out of range");
+}
+
+/// How a layer of any kind is combined with those below it.
+void checkBlending(const ipc::Layer &layer)
+{
+	for (const XrColor4f &color : {layer.colorScale, layer.colorBias})
+		for (const float number : {color.r, color.g, color.b, color.a}) require(isWithin(number, farthest), "layer color out of range");
+	const ipc::BlendFactors &blend = layer.blend;
+	for (const uint32_t factor : {blend.sourceColor, blend.destinationColor, blend.sourceAlpha, blend.destinationAlpha})
+		require(factor <= XR_BLEND_FACTOR_ONE_MINUS_DST_ALPHA_FB, "layer with an unknown blend factor");
+	const ipc::DepthTest &test = layer.depthTest;
+	require(blend.given <= 1 && test.given <= 1 && test.writes <= 1, "layer with what is neither yes nor no");
+	require(test.compareOp <= 7, "layer with an unknown depth test");
+	require(test.nearest >= 0 && test.farthest >= 0 && isWithin(test.nearest, farthest) && isWithin(test.farthest, farthest),
+			"layer depth test out of range");
 }
 
 void checkLayer(const ipc::Layer &layer, const FindSwapchain &find)
 {
-	require(layer.type <= ipc::LayerType::quad, "layer of an unknown type");
+	require(layer.type <= ipc::LayerType::cube, "layer of an unknown type");
 	require(layer.frame <= ipc::LayerFrame::head, "layer in an unknown frame");
 	require(layer.eyes <= 3, "layer for unknown eyes");
+	checkBlending(layer);
 	if (layer.type == ipc::LayerType::projection) {
-		for (const ipc::LayerView &view : layer.views) {
-			checkPose(view.pose);
-			checkFov(view.fov);
-			checkImage(view.image, find);
-		}
+		for (const ipc::LayerView &view : layer.views) checkView(view, find);
 		return;
 	}
 	checkPose(layer.views[0].pose);
-	checkImage(layer.views[0].image, find);
+	const bool cube = layer.type == ipc::LayerType::cube;
+	checkImage(layer.views[0].image, cube ? SwapchainShape::Kind::cube : SwapchainShape::Kind::flat, find);
+	if (layer.type != ipc::LayerType::quad) return checkCurved(layer.curved);
 	for (const float extent : {layer.width, layer.height})
-		require(std::isfinite(extent) && extent >= 0 && extent < 1e6f, "quad extent out of range");
+		require(std::isfinite(extent) && extent >= 0 && extent < farthest, "quad extent out of range");
 }
 
 ipc::Submission decodeSubmission(const ipc::Received &received, const FindSwapchain &find)

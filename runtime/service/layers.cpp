@@ -28,7 +28,7 @@ PanelLayer layerOf(const ipc::Layer &layer, bool rowsGoUp)
 		const ipc::LayerView &view = layer.views[layer.type == ipc::LayerType::quad ? 0 : eye];
 		if (layer.type == ipc::LayerType::quad)
 			result.quad[eye] = QuadView{view.pose, sizeOf(layer, rowsGoUp), textureOf(view.image)};
-		else
+		else if (layer.type == ipc::LayerType::projection)
 			result.projection[eye] = ProjectionView{view.pose, fovOf(view, rowsGoUp), textureOf(view.image)};
 	}
 	return result;

@@ -36,7 +36,18 @@ void checkSpec(gpu::Device &device, const gpu::ImageSpec &spec, ipc::Sharing sha
 		throw Refused(XR_ERROR_VALIDATION_FAILURE, "a cube map needs six square faces");
 }
 
+SwapchainShape::Kind kindOf(const gpu::ImageSpec &spec)
+{
+	if (spec.createFlags & VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT) return SwapchainShape::Kind::cube;
+	return gpu::isDepth(VkFormat(spec.format)) ? SwapchainShape::Kind::depth : SwapchainShape::Kind::flat;
+}
+
 } // namespace
+
+SwapchainShape Swapchains::Swapchain::shape() const
+{
+	return {about.spec.width, about.spec.height, about.spec.arrayLayers, about.imageCount, kindOf(about.spec)};
+}
 
 Swapchains::~Swapchains() { destroyAll(); }
 

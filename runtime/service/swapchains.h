@@ -57,7 +57,7 @@ private:
 		About about;
 		uint64_t bytes = 0;
 		std::shared_ptr<CopiedImages> copies; ///< null where memory is shared
-		SwapchainShape shape() const { return {about.spec.width, about.spec.height, about.spec.arrayLayers, about.imageCount}; }
+		SwapchainShape shape() const;
 	};
 	Made share(gpu::Device &device, const gpu::ImageSpec &spec, uint32_t imageCount);
 	Made copy(gpu::Device &device, const gpu::ImageSpec &spec, uint32_t imageCount);

@@ -10,31 +10,58 @@ using namespace arift;
 namespace
 {
 
-constexpr SwapchainShape shape{640, 480, 2, 3};
+using Kind = SwapchainShape::Kind;
 
-void checkImage(const ipc::SubImage &image)
+std::optional<SwapchainShape> find(uint32_t swapchain)
 {
-	fuzz::require(image.swapchain == 1, "the swapchain is the session's");
-	fuzz::require(image.image < shape.imageCount && image.arrayIndex < shape.arrayLayers, "image and array layer exist");
+	switch (swapchain) {
+	case 1: return SwapchainShape{640, 480, 2, 3};
+	case 2: return SwapchainShape{64, 64, 12, 3, Kind::cube};
+	case 3: return SwapchainShape{320, 240, 1, 3, Kind::depth};
+	default: return std::nullopt;
+	}
+}
+
+void checkImage(const ipc::SubImage &image, Kind kind)
+{
+	const auto shape = find(image.swapchain);
+	fuzz::require(shape && shape->kind == kind, "the swapchain is the session's, and of that kind");
+	const uint32_t layers = kind == Kind::cube ? shape->arrayLayers / 6 : shape->arrayLayers;
+	fuzz::require(image.image < shape->imageCount && image.arrayIndex < layers, "image and array layer exist");
 	fuzz::require(image.x >= 0 && image.y >= 0 && image.width > 0 && image.height > 0, "the rectangle begins inside");
-	fuzz::require(int64_t(image.x) + image.width <= shape.width && int64_t(image.y) + image.height <= shape.height,
+	fuzz::require(int64_t(image.x) + image.width <= shape->width && int64_t(image.y) + image.height <= shape->height,
 				  "the rectangle ends inside");
+}
+
+void checkFinite(std::initializer_list<float> numbers)
+{
+	for (const float number : numbers) fuzz::require(std::isfinite(number), "numbers are finite");
 }
 
 void checkLayer(const ipc::Layer &layer)
 {
-	fuzz::require(layer.type <= ipc::LayerType::quad && layer.frame <= ipc::LayerFrame::head && layer.eyes <= 3, "enums are in range");
-	const size_t views = layer.type == ipc::LayerType::projection ? 2 : 1;
+	using Type = ipc::LayerType;
+	fuzz::require(layer.frame <= ipc::LayerFrame::head && layer.eyes <= 3, "enums are in range");
+	const size_t views = layer.type == Type::projection ? 2 : layer.type <= Type::cube ? 1 : 0;
 	for (size_t i = 0; i < views; ++i) {
-		checkImage(layer.views[i].image);
-		fuzz::require(isValidPose(layer.views[i].pose), "poses are valid");
+		const ipc::LayerView &view = layer.views[i];
+		checkImage(view.image, layer.type == Type::cube ? Kind::cube : Kind::flat);
+		fuzz::require(isValidPose(view.pose), "poses are valid");
+		if (layer.type != Type::projection || view.depth.image.swapchain == 0) continue;
+		checkImage(view.depth.image, Kind::depth);
+		checkFinite({view.depth.inverseBias, view.depth.inverseScale});
 	}
-	if (layer.type == ipc::LayerType::quad) fuzz::require(std::isfinite(layer.width) && std::isfinite(layer.height), "extents are finite");
+	if (layer.type == Type::quad) checkFinite({layer.width, layer.height});
+	if (layer.type == Type::cylinder || layer.type == Type::equirect)
+		checkFinite({layer.curved.radius, layer.curved.uvAhead.x, layer.curved.uvPerUnit.y});
+	if (views == 0) return;
+	checkFinite({layer.colorScale.r, layer.colorBias.a, layer.depthTest.nearest, layer.depthTest.farthest});
+	fuzz::require(layer.blend.sourceColor <= 5 && layer.blend.destinationAlpha <= 5 && layer.depthTest.compareOp <= 7,
+				  "enums are in range");
 }
 
 void checkFrameRequest(const ipc::Received &received)
 {
-	const auto find = [](uint32_t swapchain) { return swapchain == 1 ? std::optional(shape) : std::nullopt; };
 	const FrameRequest request = decodeFrameRequest(received, find);
 	const auto *submission = std::get_if<ipc::Submission>(&request);
 	if (!submission) return;

@@ -9,8 +9,16 @@ using namespace arift;
 namespace
 {
 
-constexpr SwapchainShape shape{640, 480, 2, 3};
-const FindSwapchain find = [](uint32_t swapchain) { return swapchain == 1 ? std::optional(shape) : std::nullopt; };
+using Kind = SwapchainShape::Kind;
+/// 1: of two array layers; 2: of two cubes; 3: of depth.
+const FindSwapchain find = [](uint32_t swapchain) -> std::optional<SwapchainShape> {
+	switch (swapchain) {
+	case 1: return SwapchainShape{640, 480, 2, 3};
+	case 2: return SwapchainShape{64, 64, 12, 3, Kind::cube};
+	case 3: return SwapchainShape{320, 240, 1, 3, Kind::depth};
+	default: return std::nullopt;
+	}
+};
 
 template <typename M> ipc::Received bytesOf(const M &message)
 {
@@ -35,12 +43,22 @@ ipc::Submission good()
 	ipc::Submission submission;
 	submission.frame = 1;
 	submission.blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
-	submission.layerCount = 2;
+	submission.layerCount = 5;
 	submission.layers[0].views = {wholeView(), wholeView()};
+	for (ipc::LayerView &view : submission.layers[0].views) view.depth = {{.swapchain = 3, .width = 320, .height = 240}, 10, -9.9f};
+	submission.layers[0].depthTest = {.given = 1, .compareOp = 7, .writes = 1, .nearest = 0.5f, .farthest = 3};
 	submission.layers[1].type = ipc::LayerType::quad;
 	submission.layers[1].views[0] = wholeView();
 	submission.layers[1].width = 1;
 	submission.layers[1].height = 0.5f;
+	submission.layers[1].blend = {1, 5, 5, 5, 5};
+	for (const uint32_t i : {2u, 3u}) {
+		submission.layers[i].type = i == 2 ? ipc::LayerType::cylinder : ipc::LayerType::equirect;
+		submission.layers[i].views[0] = wholeView();
+		submission.layers[i].curved = {2, {0.5f, 0.5f}, {1, -0.5f}};
+	}
+	submission.layers[4].type = ipc::LayerType::cube;
+	submission.layers[4].views[0].image = {.swapchain = 2, .arrayIndex = 1, .width = 64, .height = 64};
 	return submission;
 }
 
@@ -70,7 +88,7 @@ TEST(DecodeSubmission, WhatIsWellFormedPasses)
 {
 	const FrameRequest request = decodeFrameRequest(bytesOf(good()), find);
 	const auto &submission = std::get<ipc::Submission>(request);
-	EXPECT_EQ(submission.layerCount, 2u);
+	EXPECT_EQ(submission.layerCount, 5u);
 	EXPECT_EQ(submission.layers[1].height, 0.5f);
 	ipc::Submission empty;
 	empty.blendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
@@ -85,7 +103,7 @@ TEST(DecodeSubmission, EveryHostileFieldIsRefused)
 		const char *name;
 		Change change;
 	} cases[] = {
-		{"unknown swapchain", [](auto &s, float, float) { s.layers[0].views[0].image.swapchain = 2; }},
+		{"unknown swapchain", [](auto &s, float, float) { s.layers[0].views[0].image.swapchain = 9; }},
 		{"unknown swapchain of the right eye", [](auto &s, float, float) { s.layers[0].views[1].image.swapchain = 0; }},
 		{"image index", [](auto &s, float, float) { s.layers[0].views[1].image.image = 3; }},
 		{"array index", [](auto &s, float, float) { s.layers[0].views[0].image.arrayIndex = 2; }},
@@ -94,7 +112,28 @@ TEST(DecodeSubmission, EveryHostileFieldIsRefused)
 		{"beyond the edge", [](auto &s, float, float) { s.layers[0].views[0].image.y = 1; }},
 		{"sum that wraps", [](auto &s, float, float) { s.layers[0].views[0].image.x = s.layers[0].views[0].image.width = 0x7fffffff; }},
 		{"empty rectangle", [](auto &s, float, float) { s.layers[1].views[0].image.height = 0; }},
-		{"layer type", [](auto &s, float, float) { s.layers[0].type = ipc::LayerType(2); }},
+		{"layer type", [](auto &s, float, float) { s.layers[0].type = ipc::LayerType(99); }},
+		{"cube as a flat image", [](auto &s, float, float) { s.layers[0].views[0].image = s.layers[4].views[0].image; }},
+		{"flat image as a cube", [](auto &s, float, float) { s.layers[4].views[0].image.swapchain = 1; }},
+		{"cube index", [](auto &s, float, float) { s.layers[4].views[0].image.arrayIndex = 2; }},
+		{"depth as colour", [](auto &s, float, float) { s.layers[1].views[0].image.swapchain = 3; }},
+		{"colour as depth", [](auto &s, float, float) { s.layers[0].views[1].depth.image.swapchain = 1; }},
+		{"depth beyond the edge", [](auto &s, float, float) { s.layers[0].views[1].depth.image.x = 1; }},
+		{"NaN depth", [](auto &s, float n, float) { s.layers[0].views[0].depth.inverseBias = n; }},
+		{"infinite depth", [](auto &s, float, float i) { s.layers[0].views[0].depth.inverseScale = i; }},
+		{"infinite radius", [](auto &s, float, float i) { s.layers[2].curved.radius = i; }},
+		{"negative radius", [](auto &s, float, float) { s.layers[3].curved.radius = -1; }},
+		{"NaN texture coordinate", [](auto &s, float n, float) { s.layers[2].curved.uvAhead.y = n; }},
+		{"infinite texture coordinate", [](auto &s, float, float i) { s.layers[3].curved.uvPerUnit.x = i; }},
+		{"NaN colour scale", [](auto &s, float n, float) { s.layers[4].colorScale.a = n; }},
+		{"infinite colour bias", [](auto &s, float, float i) { s.layers[0].colorBias.g = i; }},
+		{"blend factor", [](auto &s, float, float) { s.layers[1].blend.destinationAlpha = 6; }},
+		{"blend factors neither given nor not", [](auto &s, float, float) { s.layers[1].blend.given = 2; }},
+		{"comparison of depths", [](auto &s, float, float) { s.layers[0].depthTest.compareOp = 8; }},
+		{"depth test neither given nor not", [](auto &s, float, float) { s.layers[0].depthTest.given = 2; }},
+		{"depth neither written nor not", [](auto &s, float, float) { s.layers[0].depthTest.writes = 2; }},
+		{"NaN depth range", [](auto &s, float n, float) { s.layers[0].depthTest.nearest = n; }},
+		{"negative depth range", [](auto &s, float, float) { s.layers[0].depthTest.farthest = -1; }},
 		{"layer frame", [](auto &s, float, float) { s.layers[0].frame = ipc::LayerFrame(7); }},
 		{"eyes", [](auto &s, float, float) { s.layers[1].eyes = 4; }},
 		{"NaN position", [](auto &s, float n, float) { s.layers[0].views[0].pose.position.x = n; }},
