@@ -1,14 +1,50 @@
 #include "runtime/service/applications.h"
 #include <algorithm>
+#include <openxr/openxr.h>
+#include <ranges>
 
 namespace arift
 {
+namespace
+{
+
+/// For applications without the focus: devices are there, and nobody touches them.
+ipc::InputTable atRest(ipc::InputTable input)
+{
+	for (ipc::HandState &hand : input.hands) hand.select = hand.menu = 0;
+	input.gamepad = {};
+	return input;
+}
+
+} // namespace
 
 void Applications::write(ipc::ClientPage &page, const ipc::Event &event)
 {
 	const uint64_t count = page.eventCount.load(std::memory_order_relaxed);
 	page.events[count % ipc::ClientPage::eventSlots].write(event);
 	page.eventCount.store(count + 1, std::memory_order_release);
+}
+
+void Applications::writeInput(State &state)
+{
+	for (ipc::ClientPage *page : state.pages) {
+		const bool focused = std::ranges::any_of(state.running, [&](const Running &each) { return each.page == page && each.focused; });
+		page->input.write(focused ? state.input : atRest(state.input));
+	}
+}
+
+void Applications::tellOverlays(State &state, const Running *main, XrTime now)
+{
+	for (Running &running : state.running) {
+		if (!running.role.isOverlay || running.mainVisible == (main != nullptr)) continue;
+		running.mainVisible = main != nullptr;
+		write(*running.page,
+			  {.type = ipc::EventType::mainVisibilityChanged,
+			   .session = running.session,
+			   .time = now,
+			   .visible = running.mainVisible,
+			   .flags = main && main->role.hasDepth ? uint32_t(XR_OVERLAY_MAIN_SESSION_ENABLED_COMPOSITION_LAYER_INFO_DEPTH_BIT_EXTX) : 0});
+	}
 }
 
 void Applications::settle(State &state, XrTime now)
@@ -20,15 +56,24 @@ void Applications::settle(State &state, XrTime now)
 		write(*running.page,
 			  {.type = ipc::EventType::visibilityChanged, .session = running.session, .time = now, .visible = 1, .focused = focused});
 	};
-	if (state.running.empty()) return;
-	// The focus is taken before it is given: no two sessions believe they have it.
-	for (size_t i = 0; i + 1 < state.running.size(); ++i) tell(state.running[i], false);
-	tell(state.running.back(), true);
+	auto newestFirst = std::views::reverse(state.running);
+	const auto found = std::ranges::find_if(newestFirst, [](const Running &running) { return running.role.isMain(); });
+	Running *const main = found == newestFirst.end() ? nullptr : &*found;
+	// The focus is taken before it is given: no two main sessions believe they have it.
+	for (Running &running : state.running)
+		if (running.role.isMain() && &running != main) tell(running, false);
+	for (Running &running : state.running)
+		if (!running.role.isMain() || &running == main) tell(running, true);
+	tellOverlays(state, main, now);
+	writeInput(state);
 }
 
 void Applications::introduce(ipc::ClientPage &page)
 {
-	state_.update([&](State &state) { state.pages.push_back(&page); });
+	state_.update([&](State &state) {
+		state.pages.push_back(&page);
+		writeInput(state);
+	});
 }
 
 void Applications::forget(ipc::ClientPage &page)
@@ -39,13 +84,14 @@ void Applications::forget(ipc::ClientPage &page)
 	});
 }
 
-void Applications::begin(ipc::ClientPage &page, uint32_t session, XrTime now)
+void Applications::begin(ipc::ClientPage &page, uint32_t session, XrTime now, const SessionRole &role)
 {
 	state_.update([&](State &state) {
 		std::erase_if(state.running, [&](const Running &running) { return running.session == session; });
-		state.running.push_back({&page, session});
+		state.running.push_back({&page, session, role});
 		settle(state, now);
 	});
+	focusMoves();
 }
 
 void Applications::end(ipc::ClientPage &page, uint32_t session, XrTime now)
@@ -55,12 +101,27 @@ void Applications::end(ipc::ClientPage &page, uint32_t session, XrTime now)
 		write(page, {.type = ipc::EventType::visibilityChanged, .session = session, .time = now, .visible = 0, .focused = 0});
 		settle(state, now);
 	});
+	focusMoves();
+}
+
+bool Applications::hasFocus(uint32_t session)
+{
+	const auto state = state_.lock();
+	return std::ranges::any_of(state->running, [&](const Running &running) { return running.session == session && running.focused; });
 }
 
 void Applications::tellRecentered(const XrPosef &pose, XrTime now)
 {
 	state_.update([&](State &state) {
 		for (ipc::ClientPage *page : state.pages) write(*page, {.type = ipc::EventType::recentered, .time = now, .pose = pose});
+	});
+}
+
+void Applications::tellInput(const ipc::InputTable &input)
+{
+	state_.update([&](State &state) {
+		state.input = input;
+		writeInput(state);
 	});
 }
 
