@@ -29,11 +29,16 @@ public:
 	bool sleepUntil(XrTime time, std::stop_token stop) override
 	{
 		const XrTime realDeadline = anchor_.realAnchor + XrDuration(double(time - anchor_.xrAnchor) / anchor_.rate);
+		// What could wait for the stop token itself, condition_variable_any, allocates memory in its constructor.
 		std::mutex mutex;
-		std::condition_variable_any wake;
+		std::condition_variable wake;
+		const std::stop_callback onStop(stop, [&] {
+			const std::lock_guard lock(mutex);
+			wake.notify_all();
+		});
 		std::unique_lock lock(mutex);
 		for (XrDuration left; (left = realDeadline - realTime()) > 0 && !stop.stop_requested();)
-			wake.wait_for(lock, stop, std::chrono::nanoseconds(left), [] { return false; });
+			wake.wait_for(lock, std::chrono::nanoseconds(left));
 		return realTime() >= realDeadline;
 	}
 

@@ -42,8 +42,8 @@ void BlockSet::add(const PixelRect &rect)
 BlockSet::Blocks BlockSet::largest() const
 {
 	Blocks best;
-	std::vector<int> heights(size_t(columns_) + 1);
-	std::vector<int> rising;
+	FrameVector<int> heights(size_t(columns_) + 1);
+	FrameVector<int> rising;
 	for (int row = firstRow_; row < endRow_; ++row) {
 		for (int column = firstColumn_; column < endColumn_; ++column)
 			heights[size_t(column)] = filled_[size_t(row) * size_t(columns_) + size_t(column)] ? heights[size_t(column)] + 1 : 0;
@@ -68,9 +68,9 @@ PixelRect BlockSet::pixels(const Blocks &blocks) const
 	return {x, y, std::min(x + blocks.columns * width, area_.x1), std::min(y + blocks.rows * height, area_.y1)};
 }
 
-std::vector<PixelRect> BlockSet::takeRects()
+FrameVector<PixelRect> BlockSet::takeRects()
 {
-	std::vector<PixelRect> rects;
+	FrameVector<PixelRect> rects;
 	while (count_ > 0) {
 		const Blocks found = largest();
 		for (int row = found.row; row < found.row + found.rows; ++row)

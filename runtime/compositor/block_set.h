@@ -1,8 +1,8 @@
 // Which pixels one draw covers, cut into few large rectangles: along the diagonal where the two triangles of a rectangle meet, a software
 // renderer shades every block of pixels twice, and slower. Pure.
 #pragma once
+#include "runtime/base/frame_memory.h"
 #include <cstdint>
-#include <vector>
 
 namespace arift
 {
@@ -25,7 +25,7 @@ public:
 	/// `rect` begins and ends at blocks' edges or the area's.
 	void add(const PixelRect &rect);
 	/// All of it in rectangles that do not overlap, the largest first; the set is empty afterwards.
-	std::vector<PixelRect> takeRects();
+	FrameVector<PixelRect> takeRects();
 
 private:
 	struct Blocks {
@@ -37,7 +37,7 @@ private:
 
 	PixelRect area_;
 	int columns_, rows_;
-	std::vector<uint8_t> filled_;                             ///< row by row
+	FrameVector<uint8_t> filled_;                             ///< row by row
 	int firstRow_, endRow_ = 0, firstColumn_, endColumn_ = 0; ///< all filled blocks lie between
 	int count_ = 0;
 };

@@ -48,10 +48,10 @@ std::optional<glm::dvec2> texelOf(const PanelCamera &camera, const glm::dvec3 &d
 	return glm::dvec2(form.centre) + glm::dmat2(form.affine) * m;
 }
 
-std::vector<bool> seenTiles(const TileGrid &grid, const MatrixByBand &cameraMatrix, const PanelCamera &camera)
+FrameVector<bool> seenTiles(const TileGrid &grid, const MatrixByBand &cameraMatrix, const PanelCamera &camera)
 {
 	const int columns = grid.columns() + 1;
-	std::vector<unsigned> corners;
+	FrameVector<unsigned> corners;
 	corners.reserve(size_t(grid.rows() + 1) * size_t(columns));
 	for (int row = 0; row <= grid.rows(); ++row) {
 		const glm::dmat3 m = matrixAtRow(grid, cameraMatrix, row);
@@ -61,7 +61,7 @@ std::vector<bool> seenTiles(const TileGrid &grid, const MatrixByBand &cameraMatr
 			corners.push_back(sides);
 		}
 	}
-	std::vector<bool> seen;
+	FrameVector<bool> seen;
 	seen.reserve(size_t(grid.rows()) * size_t(grid.columns()));
 	for (int row = 0; row < grid.rows(); ++row)
 		for (int column = 0; column < grid.columns(); ++column) {

@@ -11,6 +11,6 @@ namespace arift
 std::optional<glm::dvec2> texelOf(const PanelCamera &camera, const glm::dvec3 &direction);
 
 /// By tile, row by row: whether the camera may see something there, in any colour. Never false in error.
-std::vector<bool> seenTiles(const TileGrid &grid, const MatrixByBand &cameraMatrix, const PanelCamera &camera);
+FrameVector<bool> seenTiles(const TileGrid &grid, const MatrixByBand &cameraMatrix, const PanelCamera &camera);
 
 } // namespace arift

@@ -45,7 +45,7 @@ std::vector<Compositor::Loop::ImageChange> Compositor::Loop::take(Frame &frame)
 {
 	std::vector<ImageChange> changes;
 	inbox.update([&](Inbox &box) {
-		frame.sources = box.sources;
+		frame.sources.assign(box.sources.begin(), box.sources.end());
 		frame.settings = box.settings;
 		changes.swap(box.imageChanges);
 		frame.wanted.swap(box.wanted);
@@ -135,7 +135,7 @@ void Compositor::Loop::hand(Frame &frame)
 void Compositor::Loop::choose(const Pacer::Refresh &refresh, Frame &frame)
 {
 	publishTiming(refresh);
-	Latched latched{.passthroughDistance = frame.settings.passthroughDistance};
+	Latched latched{.layers = std::move(layers_), .passthroughDistance = frame.settings.passthroughDistance};
 	for (size_t eye = 0; eye < 2; ++eye)
 		if (surroundings_.cameras[eye]) latched.cameras[eye] = surroundings_.cameras[eye]->newest();
 	latchLayers(frame, latched);
@@ -168,6 +168,7 @@ XrDuration Compositor::Loop::lateness(XrTime planned, XrTime now) const
 bool Compositor::Loop::frame(const Pacer::Refresh &refresh, XrTime planned)
 {
 	Clock &clock = surroundings_.clock;
+	const FrameMemory::Turn turn(memory_);
 	Frame frame;
 	auto &[wakeLate, choosing, planning, uploading, recording, drawing, presenting] = frame.stages;
 	const XrTime began = clock.now(), realBegan = realTime();
@@ -192,6 +193,8 @@ bool Compositor::Loop::frame(const Pacer::Refresh &refresh, XrTime planned)
 	record(frame);
 	trace(frame, realBegan);
 	hand(frame);
+	layers_ = std::move(frame.inputs.layers);
+	layers_.clear();
 	return frame.result.outcome == Presented::shown;
 }
 

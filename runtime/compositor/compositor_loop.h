@@ -1,5 +1,6 @@
 // The compositor's inside: what its thread owns, and what others hand to it under a lock.
 #pragma once
+#include "runtime/base/frame_memory.h"
 #include "runtime/base/trace.h"
 #include "runtime/compositor/camera_fade.h"
 #include "runtime/compositor/compositor.h"
@@ -47,8 +48,8 @@ public:
 	void run(const std::stop_token &stop);
 
 private:
-	using Sources = std::vector<std::shared_ptr<FrameSource>>;
-	using Contents = std::vector<std::shared_ptr<const FrameContent>>;
+	using Sources = FrameVector<std::shared_ptr<FrameSource>>;
+	using Contents = FrameVector<std::shared_ptr<const FrameContent>>;
 	/// What becomes of one refresh, on its way from the inbox to the panel.
 	struct Frame {
 		Sources sources;
@@ -77,6 +78,8 @@ private:
 	bool frame(const Pacer::Refresh &refresh, XrTime planned);
 
 	const Surroundings surroundings_;
+	FrameMemory memory_{512 << 10};
+	std::vector<PanelLayer> layers_; ///< between frames: empty, its memory is used again
 	Pacer pacer_;
 	std::unique_ptr<Panel> panel_;
 	std::map<uint64_t, std::shared_ptr<const void>> images_;

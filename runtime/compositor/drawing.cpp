@@ -17,11 +17,13 @@ bool lies(const LayerTexture &texture, const gpu::ImageSpec &spec)
 		   texture.arrayIndex < spec.arrayLayers;
 }
 
-/// A texel's light reaches into its neighbours. `wholly`: the layer hides what is behind it, whatever its image holds.
+/// A texel's light reaches into its neighbours. `texture` must outlive the answer. `wholly`: the layer hides what is behind it, whatever
+/// its image holds.
 ContentOf contentOf(const LayerTexture &texture, Occupancy *occupancy, bool wholly)
 {
 	if (wholly || !occupancy) return [content = wholly ? Content::opaque : Content::some](auto, auto) { return content; };
-	return [rect = texture.rect, occupancy](glm::dvec2 least, glm::dvec2 most) {
+	// Two pointers: what a std::function holds without memory of its own.
+	return [&rect = texture.rect, occupancy](glm::dvec2 least, glm::dvec2 most) {
 		const auto within = [](double place, int32_t offset, int32_t extent) { return offset + int(std::clamp(place, 0.0, 1.0) * extent); };
 		return occupancy->contentOf(
 			{within(least.x, rect.offset.x, rect.extent.width) - 1, within(least.y, rect.offset.y, rect.extent.height) - 1,
@@ -37,7 +39,7 @@ PipelineKey backdropOf(const CameraView *camera, bool throughLens)
 }
 
 /// Pictures for people are rare: they have no pipelines of their own for what lies wholly inside a layer.
-void blendEverywhere(std::vector<Cover> &cover)
+void blendEverywhere(FrameVector<Cover> &cover)
 {
 	std::ranges::replace_if(
 		cover, [](Cover tile) { return tile != Cover::none; }, Cover::partly);
@@ -62,7 +64,7 @@ public:
 		const auto firstEyeBlock = uint32_t(drawing_.eyeBlocks.size());
 		const CameraView *camera = cameraOf(draw_.inputs, draw_.optics, draw_.eye);
 		const MatrixByBand matrices = addEyeBlocks(camera);
-		std::vector<bool> seen;
+		FrameVector<bool> seen;
 		if (camera) seen = seenTiles(draw_.grid, matrices, draw_.optics.cameras[camera->lens]);
 		const size_t count = std::min(draw_.inputs.layers.size(), maxDrawnLayers);
 		covers_.resize(count);
@@ -130,9 +132,9 @@ private:
 	const EyeDraw &draw_;
 	const FindImage &findImage_;
 	std::array<std::array<EyeAtLine, 2>, bandCount + 1> eyes_;
-	std::vector<std::vector<Cover>> covers_; ///< by layer
-	std::vector<uint32_t> blocks_;           ///< by layer: its first block
-	std::vector<bool> encoded_;              ///< by layer: its texels are sRGB encoded
+	FrameVector<FrameVector<Cover>> covers_; ///< by layer
+	FrameVector<uint32_t> blocks_;           ///< by layer: its first block
+	FrameVector<bool> encoded_;              ///< by layer: its texels are sRGB encoded
 };
 
 } // namespace
@@ -150,7 +152,7 @@ Drawing makeDrawing(const PanelInputs &inputs, const PanelOptics &optics, const 
 
 Drawing warmUpDrawing(std::span<const PipelineKey> pipelines, std::span<const uint64_t> images, const PixelRect &pixels)
 {
-	Drawing drawing{.eyeBlocks = std::vector<shaders::EyeBlock>(1), .layerBlocks = std::vector<shaders::LayerBlock>(1)};
+	Drawing drawing{.eyeBlocks = FrameVector<shaders::EyeBlock>(1), .layerBlocks = FrameVector<shaders::LayerBlock>(1)};
 	addRect(drawing, pixels);
 	DrawItem item{.vertexCount = uint32_t(drawing.vertices.size())};
 	for (const PipelineKey &key : pipelines) {

@@ -19,10 +19,10 @@ struct DrawItem {
 };
 
 struct Drawing {
-	std::vector<DrawItem> items;
-	std::vector<std::array<int16_t, 2>> vertices; ///< triangles, pixels
-	std::vector<shaders::EyeBlock> eyeBlocks;
-	std::vector<shaders::LayerBlock> layerBlocks;
+	FrameVector<DrawItem> items;
+	FrameVector<std::array<int16_t, 2>> vertices; ///< triangles, pixels
+	FrameVector<shaders::EyeBlock> eyeBlocks;
+	FrameVector<shaders::LayerBlock> layerBlocks;
 };
 
 /// An image that can be sampled.

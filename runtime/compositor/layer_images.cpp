@@ -89,7 +89,7 @@ std::optional<KnownImage> LayerImages::find(const LayerTexture &texture)
 
 void LayerImages::acquire(const vk::raii::CommandBuffer &commands, std::span<const Entry *const> entries) const
 {
-	std::vector<vk::ImageMemoryBarrier> barriers;
+	FrameVector<vk::ImageMemoryBarrier> barriers;
 	for (const Entry *entry : entries)
 		barriers.push_back({{},
 							Access::eShaderRead,
@@ -104,7 +104,7 @@ void LayerImages::acquire(const vk::raii::CommandBuffer &commands, std::span<con
 
 void LayerImages::release(const vk::raii::CommandBuffer &commands, std::span<const Entry *const> entries) const
 {
-	std::vector<vk::ImageMemoryBarrier> barriers;
+	FrameVector<vk::ImageMemoryBarrier> barriers;
 	for (const Entry *entry : entries)
 		barriers.push_back({{},
 							{},

@@ -132,7 +132,7 @@ struct PanelRenderer::Implementation {
 	void drawItems(const Drawing &drawing) const;
 	void uploadCameras(const PanelInputs &inputs);
 	void bindTextures(size_t eye);
-	std::vector<const LayerImages::Entry *> imagesOf(const Drawing &drawing) const;
+	FrameVector<const LayerImages::Entry *> imagesOf(const Drawing &drawing) const;
 	void writeVertices(const Drawing &drawing);
 	ReadbackImage read(const Canvas &canvas);
 
@@ -211,9 +211,9 @@ void PanelRenderer::Implementation::uploadCameras(const PanelInputs &inputs)
 	}
 }
 
-std::vector<const LayerImages::Entry *> PanelRenderer::Implementation::imagesOf(const Drawing &drawing) const
+FrameVector<const LayerImages::Entry *> PanelRenderer::Implementation::imagesOf(const Drawing &drawing) const
 {
-	std::vector<const LayerImages::Entry *> entries;
+	FrameVector<const LayerImages::Entry *> entries;
 	for (const DrawItem &item : drawing.items) {
 		if (item.pipeline.layer == Cover::none) continue;
 		const LayerImages::Entry *entry = layerImages.find(item.image);

@@ -73,7 +73,7 @@ public:
 
 private:
 	const TileGrid &grid_;
-	std::vector<glm::dmat3> byRow_;
+	FrameVector<glm::dmat3> byRow_;
 };
 
 /// Collects tiles by what draws them, and cuts them into rectangles.
@@ -88,9 +88,9 @@ public:
 		if (last_ == byDraw_.end() || last_->first != key) last_ = byDraw_.try_emplace(key, grid_.area()).first;
 		last_->second.add(tile);
 	}
-	std::vector<TileDraw> draws()
+	FrameVector<TileDraw> draws()
 	{
-		std::vector<TileDraw> draws;
+		FrameVector<TileDraw> draws;
 		for (auto &[key, blocks] : byDraw_) {
 			const auto &[blend, order, band, layer, cover, behind] = key;
 			draws.push_back({blend, behind, layer, cover, band, blocks.takeRects()});
@@ -101,8 +101,9 @@ public:
 private:
 	using Key = std::tuple<Blend, int, uint32_t, int, Cover, Behind>;
 	const TileGrid &grid_;
-	std::map<Key, BlockSet> byDraw_;
-	std::map<Key, BlockSet>::iterator last_ = byDraw_.end(); ///< neighbours are mostly drawn alike
+	using ByDraw = std::map<Key, BlockSet, std::less<>, FrameMemoryAllocator<std::pair<const Key, BlockSet>>>;
+	ByDraw byDraw_;
+	ByDraw::iterator last_ = byDraw_.end(); ///< neighbours are mostly drawn alike
 };
 
 } // namespace
@@ -142,10 +143,10 @@ PixelRect TileGrid::tile(int column, int row) const
 	return {std::max(x, first), y, std::min(x + tileWidth, last), std::min(y + tileHeight, area_.y1)};
 }
 
-std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, glm::dvec2 border, const ContentOf &contentOf)
+FrameVector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, glm::dvec2 border, const ContentOf &contentOf)
 {
 	const LayerReach reach(grid, uvMatrix);
-	std::vector<Cover> cover(size_t(grid.rows()) * size_t(grid.columns()));
+	FrameVector<Cover> cover(size_t(grid.rows()) * size_t(grid.columns()));
 	const auto coverOf = [&](int column, int row, int column1, int row1) {
 		return reach.of(column, row, column1, row1).cover(border, contentOf);
 	};
@@ -162,12 +163,12 @@ std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, 
 	return cover;
 }
 
-std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const std::vector<Cover>> layers,
-								const std::vector<bool> &seen)
+FrameVector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const FrameVector<Cover>> layers,
+								const FrameVector<bool> &seen)
 {
 	const bool environment = blendMode != XR_ENVIRONMENT_BLEND_MODE_OPAQUE, additive = blendMode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
 	Plan plan(grid);
-	std::vector<int> here;
+	FrameVector<int> here;
 	const auto addTile = [&](int column, int row) {
 		const PixelRect rect = grid.tile(column, row);
 		if (rect.x0 >= rect.x1) return;

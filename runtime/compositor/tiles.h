@@ -1,6 +1,7 @@
 // Which part of an eye's image needs which pipeline: a software renderer pays for every pixel that a layer is asked about in vain, and
 // branching in the shader does not help it. Pure functions.
 #pragma once
+#include "runtime/base/frame_memory.h"
 #include "runtime/base/xr.h"
 #include "runtime/compositor/block_set.h"
 #include "runtime/compositor/occupancy.h"
@@ -59,7 +60,7 @@ enum class Cover : uint8_t { none, partly, fully, opaque };
 using ContentOf = std::function<Content(glm::dvec2 least, glm::dvec2 most)>;
 /// By tile, row by row: where a layer with these matrices (reprojection.h) lies and has content. Never says `none`, `fully` or `opaque` in
 /// error, for any colour; `border`: less than this inside the image's edges, uv, is not inside.
-std::vector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, glm::dvec2 border, const ContentOf &contentOf);
+FrameVector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, glm::dvec2 border, const ContentOf &contentOf);
 
 enum class Blend : uint32_t { replace, over, add };
 /// What stands behind a tile's layers: the camera's image, or what is shown where it sees nothing.
@@ -70,11 +71,11 @@ struct TileDraw {
 	int layer = -1;
 	Cover cover = Cover::none; ///< the layer's, of every tile
 	uint32_t band = 0;
-	std::vector<PixelRect> rects; ///< do not overlap
+	FrameVector<PixelRect> rects; ///< do not overlap
 };
 /// The draws of one eye in their order. `layers`: their coverage, bottom first; empty: this eye does not see it. `seen`: by tile, where the
 /// camera's image is asked for; empty: everywhere.
-std::vector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const std::vector<Cover>> layers,
-								const std::vector<bool> &seen = {});
+FrameVector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const FrameVector<Cover>> layers,
+								const FrameVector<bool> &seen = {});
 
 } // namespace arift

@@ -62,7 +62,7 @@ TEST(CameraCover, isWithoutHolesAndLeavesTheRestAlone)
 		for (size_t eye = 0; eye < 2; ++eye) {
 			const TileGrid grid = makeGrid(scene.optics, panelGeometry(scene.optics), eye);
 			const MatrixByBand m = scene.matrices(grid, eye);
-			const std::vector<bool> seen = seenTiles(grid, m, scene.optics.cameras[eye]);
+			const FrameVector<bool> seen = seenTiles(grid, m, scene.optics.cameras[eye]);
 			size_t asked = 0, needed = 0, all = 0;
 			for (int row = 0; row < grid.rows(); ++row)
 				for (int column = 0; column < grid.columns(); ++column) {

@@ -23,13 +23,13 @@ MatrixByBand window(double left, double right, double up, double down)
 }
 
 /// Of a layer that has content everywhere.
-std::vector<Cover> covered(const TileGrid &grid, const MatrixByBand &m, Content content = Content::some)
+FrameVector<Cover> covered(const TileGrid &grid, const MatrixByBand &m, Content content = Content::some)
 {
 	return coverage(grid, m, {0, 0}, [=](auto, auto) { return content; });
 }
 
 /// How often each pixel is drawn, by blend.
-std::map<Blend, std::vector<int>> painted(const std::vector<TileDraw> &draws)
+std::map<Blend, std::vector<int>> painted(const FrameVector<TileDraw> &draws)
 {
 	std::map<Blend, std::vector<int>> counts;
 	for (const TileDraw &draw : draws) {
@@ -135,7 +135,7 @@ TEST(PlanDraws, aLayersEdgesAreDrawnApartFromItsInside)
 TEST(PlanDraws, addedLightComesLast)
 {
 	const TileGrid grid = plainGrid();
-	const std::vector<Cover> everywhere = covered(grid, window(-2, 2, 2, -2));
+	const FrameVector<Cover> everywhere = covered(grid, window(-2, 2, 2, -2));
 	const std::array layers{everywhere, everywhere, everywhere};
 	const auto draws = planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ADDITIVE, layers);
 	std::vector<std::pair<Blend, int>> order;
@@ -148,7 +148,7 @@ TEST(PlanDraws, addedLightComesLast)
 TEST(PlanDraws, theCameraIsAskedOnlyWhereItSees)
 {
 	const TileGrid grid = plainGrid();
-	std::vector<bool> seen(size_t(grid.rows() * grid.columns()));
+	FrameVector<bool> seen(size_t(grid.rows() * grid.columns()));
 	for (size_t i = 0; i < seen.size(); ++i) seen[i] = int(i) % grid.columns() < 5;
 	const std::array layers{covered(grid, window(-2, 2, 2, -2))};
 	for (const TileDraw &draw : planDraws(grid, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, layers, seen))

@@ -31,10 +31,10 @@ nlohmann::json clientNamed(const nlohmann::json &status, const std::string &name
 
 /// One part of a run: what the service and an application that stays did in it.
 struct Window {
-	double framesPerSecond = 0; ///< of the system's clock
-	double composeMs = 0, latencyMs = 0, cpuMsPerFrame = 0;
-	double shownPerFrame = 0;          ///< frames of the application per panel image
-	ProcessUsage service, application; ///< the least of each seen in it
+	double framesPerSecond = 0;                                            ///< of the system's clock
+	double composeMs = 0, slowestMs = 0, latencyMs = 0, cpuMsPerFrame = 0; ///< slowest: composing, all but one image of a hundred
+	double shownPerFrame = 0;                                              ///< frames of the application per panel image
+	ProcessUsage service, application;                                     ///< the least of each seen in it
 };
 
 ProcessUsage least(const ProcessUsage &a, const ProcessUsage &b)
@@ -68,6 +68,7 @@ public:
 		if (after.is_null()) return window;
 		window.framesPerSecond = frames["perSecond"];
 		window.composeMs = frames["composeMs"]["median"];
+		window.slowestMs = frames["composeMs"]["p99"];
 		window.cpuMsPerFrame = frames["cpuMsPerFrame"];
 		window.latencyMs = after["latencyMs"]["median"];
 		window.shownPerFrame = double(after["shown"].get<uint64_t>() - before["shown"].get<uint64_t>()) / frames["shown"].get<double>();
@@ -145,7 +146,7 @@ TEST(Soak, FourApplicationsOfWhichThreeMisbehave)
 TEST(Soak, EverythingForAnHour)
 {
 	const double seconds = inSeconds(durationOr(3600 * second)), part = std::min(60.0, seconds / 4);
-	const double rate = affordableRate(0.4, [](PrivateService &service) {
+	const double rate = affordableRate(0.2, [](PrivateService &service) {
 		std::vector<ChildProcess> both;
 		both.push_back(service.start("clearing_application", {"translucent", "4"}));
 		both.push_back(service.start("hologram_cube", {}));
@@ -166,17 +167,27 @@ TEST(Soak, EverythingForAnHour)
 		sleep(1);
 	};
 	watch.window(part / 2, act); // caches fill
-	const Window first = watch.window(part, act);
-	Window last = first;
-	for (double gone = part; gone + part <= seconds; gone += part) {
-		last = watch.window(part, act);
-		EXPECT_GE(last.framesPerSecond, 0.98 * first.framesPerSecond);
-		EXPECT_GE(last.shownPerFrame, 0.98 * first.shownPerFrame);
+	std::vector<Window> windows;
+	for (double gone = 0; gone + part <= seconds; gone += part) windows.push_back(watch.window(part, act));
+	const Window &first = windows.front(), &last = windows.back();
+	// Where others kept the machine so busy that one image in a hundred took longer than a refresh, frames say nothing of growth.
+	const auto isJudged = [&](const Window &window) { return window.slowestMs * rate < refreshPeriod; };
+	EXPECT_GT(2 * std::ranges::count_if(windows, isJudged), std::ssize(windows)) << "the machine was too busy to say";
+	for (const Window &window : windows) {
+		if (!isJudged(window)) continue;
+		EXPECT_GE(window.framesPerSecond, 0.98 * first.framesPerSecond);
+		EXPECT_GE(window.shownPerFrame, 0.98 * first.shownPerFrame);
 	}
 	expectFlat(first.service, last.service, "the service");
 	expectFlat(first.application, last.application, "an application");
-	EXPECT_LE(last.latencyMs, 1.1 * first.latencyMs + 1);
-	EXPECT_LE(last.composeMs, 1.1 * first.composeMs + 1);
+	// The least of a quarter's windows: what others on the machine add is not there in every minute, what has grown is.
+	const auto leastOf = [&](auto begin, auto end, double Window::*value) {
+		return std::ranges::min(std::ranges::subrange(begin, end), {}, value).*value;
+	};
+	const auto quarter = std::max<std::ptrdiff_t>(1, std::ssize(windows) / 4);
+	for (const auto value : {&Window::latencyMs, &Window::composeMs})
+		EXPECT_LE(leastOf(windows.end() - quarter, windows.end(), value),
+				  1.1 * leastOf(windows.begin(), windows.begin() + quarter, value) + 1);
 }
 
 } // namespace
