@@ -18,7 +18,8 @@ VKAPI_ATTR VkBool32 VKAPI_CALL hear(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDe
 
 } // namespace
 
-VulkanApplication::VulkanApplication() : loader_(::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL))
+VulkanApplication::VulkanApplication(std::vector<const char *> extensions)
+	: application((extensions.push_back("XR_KHR_vulkan_enable2"), extensions)), loader_(::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL))
 {
 	getInstanceProcAddr_ = reinterpret_cast<PFN_vkGetInstanceProcAddr>(::dlsym(loader_, "vkGetInstanceProcAddr"));
 	const XrSystemId system = application.system();

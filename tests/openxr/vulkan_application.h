@@ -11,7 +11,8 @@ namespace arift
 class VulkanApplication
 {
 public:
-	VulkanApplication();
+	/// `extensions`: besides XR_KHR_vulkan_enable2.
+	explicit VulkanApplication(std::vector<const char *> extensions = {});
 	~VulkanApplication();
 	VulkanApplication(const VulkanApplication &) = delete;
 
@@ -21,7 +22,7 @@ public:
 	/// Messages of the validation layer so far.
 	int complaints() const { return complaints_; }
 
-	Application application{{"XR_KHR_vulkan_enable2"}};
+	Application application;
 	VkInstance instance = VK_NULL_HANDLE;
 	VkPhysicalDevice physical = VK_NULL_HANDLE;
 	VkDevice device = VK_NULL_HANDLE;

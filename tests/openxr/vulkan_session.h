@@ -9,12 +9,15 @@ namespace arift
 
 struct VulkanSession : testing::Test, ImageService {
 	/// As ImageService.
-	explicit VulkanSession(ipc::Sharing sharing = ipc::Sharing::memory, std::function<void(ipc::SessionCreated &)> probe = {})
-		: ImageService(sharing, std::move(probe)), session(application.session(&vulkan->binding))
+	explicit VulkanSession(ipc::Sharing sharing = ipc::Sharing::memory, std::function<void(ipc::SessionCreated &)> probe = {},
+						   std::vector<const char *> extensions = {})
+		: ImageService(sharing, std::move(probe)),
+		  vulkan(std::in_place, std::move(extensions)),
+		  session(application.session(&vulkan->binding))
 	{
 	}
 
-	std::optional<VulkanApplication> vulkan{std::in_place};
+	std::optional<VulkanApplication> vulkan;
 	Application &application = vulkan->application;
 	XrSession session;
 
