@@ -1,5 +1,6 @@
 #include "runtime/compositor/compositor.h"
 #include "runtime/compositor/compositor_loop.h"
+#include <algorithm>
 
 namespace arift
 {
@@ -33,7 +34,8 @@ void Compositor::addSource(std::shared_ptr<FrameSource> source)
 {
 	loop_->inbox.update([&](Loop::Inbox &box) {
 		std::erase(box.sources, source);
-		box.sources.push_back(std::move(source));
+		const auto behind = std::ranges::find_if(box.sources, [&](const auto &each) { return each->order() > source->order(); });
+		box.sources.insert(behind, std::move(source));
 	});
 }
 

@@ -39,6 +39,7 @@ enum class MessageType : uint32_t {
 	frameReady,
 	submission,
 	relinquish,
+	vibrate,
 	// monitors
 	getStatus = 200,
 	status, // status: fd of a sealed memfd with JSON text
@@ -103,7 +104,9 @@ struct CreateSession {
 	Header header{type};
 	std::array<uint8_t, 16> deviceUuid{}, driverUuid{}; ///< of the application's GPU
 	uint32_t headless = 0;
-	uint32_t reserved = 0;
+	uint32_t overlay = 0;   ///< XR_EXTX_overlay: 1 for a session that lies over the main one
+	uint32_t placement = 0; ///< overlay: sessionLayersPlacement, the highest in front
+	uint32_t hasDepth = 0;  ///< 1: XR_KHR_composition_layer_depth is enabled
 };
 struct SessionCreated {
 	static constexpr MessageType type = MessageType::sessionCreated;
@@ -254,6 +257,15 @@ struct Relinquish {
 	static constexpr MessageType type = MessageType::relinquish;
 	Header header{type};
 	uint64_t frame = 0;
+};
+
+/// What a gamepad's motors are to do from now on, of a session that has the focus. No reply.
+struct Vibrate {
+	static constexpr MessageType type = MessageType::vibrate;
+	Header header{type};
+	uint32_t motors = 0;      ///< bit 0 the left, strong one; bit 1 the right, weak one; others go on as they do
+	float amplitude = 0;      ///< 0..1
+	XrDuration duration = -1; ///< 0: stop; -1 (XR_MIN_HAPTIC_DURATION): as short as can be felt
 };
 
 // ---- monitors

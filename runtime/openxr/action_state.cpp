@@ -31,7 +31,16 @@ template <typename State> void write(const ActionResult &result, State &state)
 	state.isActive = result.isActive ? XR_TRUE : XR_FALSE;
 }
 
-XrResult focusResult(const Session &session) { return session.isFocused() ? XR_SUCCESS : XR_SESSION_NOT_FOCUSED; }
+/// What an action's outputs are to do; those that nobody has do nothing.
+XrResult vibrate(Session &session, const XrHapticActionInfo &info, ipc::Vibrate message)
+{
+	handles.at<Action>(info.action).requireType(XR_ACTION_TYPE_VIBRATION_OUTPUT);
+	const Action &action = requireAttachedAction(session, info.action, info.subactionPath);
+	if (!session.isFocused()) return XR_SESSION_NOT_FOCUSED;
+	message.motors = session.serviceDevices.motorsOf(session.input.sourcesOf(*action.core, info.subactionPath));
+	if (message.motors != 0) session.vibrate(message);
+	return XR_SUCCESS;
+}
 
 /// Most applications have a handful of sets: no allocation.
 class ActiveSets
@@ -165,6 +174,7 @@ XrResult syncActions(Session &session, const XrActionsSyncInfo &info)
 		session.input.rest();
 		return XR_SESSION_NOT_FOCUSED;
 	}
+	session.serviceDevices.update(session.input, session.instance.service.client().input);
 	if (session.input.synchronize(active.all(), session.instance.service.now()))
 		session.tell(XrEventDataInteractionProfileChanged{XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED, nullptr, handleOf(session)});
 	return XR_SUCCESS;
@@ -172,7 +182,7 @@ XrResult syncActions(Session &session, const XrActionsSyncInfo &info)
 
 XrResult enumerateBoundSourcesForAction(Session &session, const XrBoundSourcesForActionEnumerateInfo &info, OutputArray<XrPath> sources)
 {
-	return sources.assign(session.input.sourcesOf(*requireAttachedAction(session, info.action, XR_NULL_PATH).core));
+	return sources.assign(session.input.sourcesOf(*requireAttachedAction(session, info.action, XR_NULL_PATH).core, XR_NULL_PATH));
 }
 
 XrResult getInputSourceLocalizedName(Session &session, const XrInputSourceLocalizedNameGetInfo &info, OutputArray<char> buffer)
@@ -201,14 +211,14 @@ XrResult applyHapticFeedback(Session &session, const XrHapticActionInfo &info, c
 	if (!haptic) throw Error(XR_ERROR_VALIDATION_FAILURE, "hapticFeedback is null");
 	if (haptic->type != XR_TYPE_HAPTIC_VIBRATION)
 		throw Error(XR_ERROR_VALIDATION_FAILURE, "XrStructureType {} is no haptic feedback of this runtime", int(haptic->type));
-	return stopHapticFeedback(session, info);
+	const auto &vibration = reinterpret_cast<const XrHapticVibration &>(*haptic);
+	const float amplitude = vibration.amplitude > 0 ? std::min(vibration.amplitude, 1.0f) : 0; // 0 for what is no number, too
+	return vibrate(session, info, {.amplitude = amplitude, .duration = std::max<XrDuration>(vibration.duration, XR_MIN_HAPTIC_DURATION)});
 }
 
 XrResult stopHapticFeedback(Session &session, const XrHapticActionInfo &info)
 {
-	handles.at<Action>(info.action).requireType(XR_ACTION_TYPE_VIBRATION_OUTPUT);
-	requireAttachedAction(session, info.action, info.subactionPath);
-	return focusResult(session);
+	return vibrate(session, info, {.amplitude = 0, .duration = 0});
 }
 
 } // namespace arift::openxr

@@ -63,6 +63,7 @@ namespace arift::openxr
 	X(EXT_active_action_set_priority)                                                                                                      \
 	X(EXT_conformance_automation)                                                                                                          \
 	X(EXT_dpad_binding)                                                                                                                    \
+	X(EXTX_overlay)                                                                                                                        \
 	X(MND_headless)
 
 #define ARIFT_ROW(name) name,

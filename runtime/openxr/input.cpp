@@ -182,13 +182,16 @@ XrPath Input::profileOf(XrPath user) const
 	return found == state->profiles.end() ? XR_NULL_PATH : found->second;
 }
 
-std::vector<XrPath> Input::sourcesOf(const ActionCore &action) const
+std::vector<XrPath> Input::sourcesOf(const ActionCore &action, XrPath subactionPath) const
 {
 	const auto state = state_.lock();
 	std::vector<XrPath> sources;
-	for (const Bound &bound : state->bounds)
-		if (bound.binding.action.get() == &action && state->profiles.at(bound.binding.user) == bound.binding.profile)
-			sources.push_back(bound.binding.source);
+	for (const Bound &bound : state->bounds) {
+		const Binding &binding = bound.binding;
+		const bool isMeant = subactionPath == XR_NULL_PATH || binding.user == subactionPath;
+		if (binding.action.get() == &action && isMeant && state->profiles.at(binding.user) == binding.profile)
+			sources.push_back(binding.source);
+	}
 	return sources;
 }
 

@@ -51,8 +51,8 @@ public:
 	ActionResult result(const ActionCore &action, XrPath subactionPath) const;
 	/// XR_NULL_PATH where no device is, or none for which something was suggested.
 	XrPath profileOf(XrPath user) const;
-	/// What is bound to the action at the moment.
-	std::vector<XrPath> sourcesOf(const ActionCore &action) const;
+	/// What is bound to the action at the moment. `subactionPath`: XR_NULL_PATH for all together.
+	std::vector<XrPath> sourcesOf(const ActionCore &action, XrPath subactionPath) const;
 
 private:
 	struct Slot {

@@ -1,5 +1,6 @@
 // What is in a person's hands, and what it says at this moment.
 #pragma once
+#include "runtime/base/pose.h"
 #include "runtime/openxr/space_kind.h"
 #include <map>
 #include <optional>
@@ -16,6 +17,7 @@ struct InputValue {
 struct InputDevice {
 	XrPath profile = XR_NULL_PATH;
 	bool isActive = false;
+	bool isPlayed = false;               ///< by the application itself (XR_EXT_conformance_automation), whatever the service has
 	std::optional<Placed> place;         ///< of every pose that it says nothing else of
 	std::map<XrPath, InputValue> values; ///< by source (/user/hand/left/input/select/click)
 
@@ -25,6 +27,13 @@ struct InputDevice {
 		return found == values.end() ? nullptr : &found->second;
 	}
 };
+
+/// What lies on the surface of a device that is held: turned against the grip as on usual controllers.
+inline Placed onSurface(const Placed &grip)
+{
+	constexpr float sine = -0.3826834f, cosine = 0.9238795f; // 45 degrees about x, half
+	return {grip.reference, grip.pose * XrPosef{{sine, 0, 0, cosine}, {0, 0, 0}}};
+}
 
 /// By user path.
 using InputDevices = std::map<XrPath, InputDevice>;

@@ -1,14 +1,18 @@
 #include "runtime/openxr/session.h"
+#include "runtime/openxr/ext/extx_overlay.h"
 #include "runtime/openxr/ext/khr_vulkan_enable.h"
 #include "runtime/openxr/opengl/gl_graphics.h"
 
 namespace arift::openxr
 {
 
-Session::Granted Session::ask(Instance &instance, const Graphics *graphics)
+Session::Granted Session::ask(Instance &instance, const Graphics *graphics, const XrSessionCreateInfoOverlayEXTX *overlay)
 {
 	ipc::CreateSession request;
 	request.headless = graphics == nullptr;
+	request.overlay = overlay != nullptr;
+	request.placement = overlay ? overlay->sessionLayersPlacement : 0;
+	request.hasDepth = instance.has(Extension::KHR_composition_layer_depth);
 	if (graphics) {
 		request.deviceUuid = graphics->deviceUuid();
 		request.driverUuid = graphics->driverUuid();
@@ -25,6 +29,7 @@ Session::Granted Session::ask(Instance &instance, const Graphics *graphics)
 
 Session::Session(Instance &owner, std::unique_ptr<Graphics> &&graphics, Granted granted)
 	: instance(owner),
+	  serviceDevices(owner.paths),
 	  graphics_(std::move(graphics)),
 	  sharing_(graphics_ ? agree(*graphics_, granted.answer.reply, granted.answer.fds[1]) : ImageSharing{}),
 	  id_(granted.answer.reply.session),
@@ -33,7 +38,8 @@ Session::Session(Instance &owner, std::unique_ptr<Graphics> &&graphics, Granted 
 {
 }
 
-Session::Session(Instance &owner, std::unique_ptr<Graphics> graphics) : Session(owner, std::move(graphics), ask(owner, graphics.get()))
+Session::Session(Instance &owner, std::unique_ptr<Graphics> graphics, const XrSessionCreateInfoOverlayEXTX *overlay)
+	: Session(owner, std::move(graphics), ask(owner, graphics.get(), overlay))
 {
 	if (frames_->fd() < 0) throw Error(XR_ERROR_RUNTIME_FAILURE, "arift-service sent no frame channel");
 	framesClosedInChildren_ = std::make_unique<ClosedInChildren>(frames_->fd());
@@ -128,10 +134,11 @@ void createSession(Instance &instance, const XrSessionCreateInfo &info, XrSessio
 {
 	if (info.createFlags != 0) throw Error(XR_ERROR_VALIDATION_FAILURE, "createFlags is {:#x}, not 0", info.createFlags);
 	instance.requireSystem(info.systemId);
+	const XrSessionCreateInfoOverlayEXTX *overlay = overlayIn(instance, info.next);
 	std::unique_ptr<Graphics> graphics = graphicsFor(instance, info);
 	if (instance.hasSession.exchange(true)) throw Error(XR_ERROR_LIMIT_REACHED, "the instance has a session already");
 	try {
-		auto made = std::make_unique<Session>(instance, std::move(graphics));
+		auto made = std::make_unique<Session>(instance, std::move(graphics), overlay);
 		Session &object = *made;
 		session = handles.insert(std::move(made), &instance);
 		object.announce();

@@ -4,6 +4,7 @@
 #include "runtime/openxr/image_sharing.h"
 #include "runtime/openxr/input.h"
 #include "runtime/openxr/instance.h"
+#include "runtime/openxr/service_devices.h"
 #include "runtime/openxr/session_life.h"
 #include "runtime/openxr/submitter.h"
 
@@ -21,8 +22,8 @@ struct FrameCost {
 class Session : public Object
 {
 public:
-	/// `graphics` is null for a headless session.
-	Session(Instance &instance, std::unique_ptr<Graphics> graphics);
+	/// `graphics` is null for a headless session, `overlay` for one that is none (XR_EXTX_overlay).
+	Session(Instance &instance, std::unique_ptr<Graphics> graphics, const XrSessionCreateInfoOverlayEXTX *overlay);
 	~Session() override;
 	void requireAlive() const override
 	{
@@ -58,10 +59,14 @@ public:
 	/// Nothing that names this session's images is left unsent.
 	void drainSubmissions();
 
+	/// Tells the gamepad's motors; does without where the service does not keep up.
+	void vibrate(const ipc::Vibrate &message) { frames_->send(message, 0); }
+
 	FrameCost frameCost() const { return *frameCost_.lock(); }
 
 	Instance &instance;
 	Input input;
+	ServiceDevices serviceDevices;
 	DebugLabels labels;
 	/// Whether frameCost() is kept.
 	std::atomic<bool> measuresFrames{false};
@@ -72,7 +77,7 @@ private:
 		uint64_t newsBefore;
 		ipc::Answer<ipc::SessionCreated> answer;
 	};
-	static Granted ask(Instance &instance, const Graphics *graphics);
+	static Granted ask(Instance &instance, const Graphics *graphics, const XrSessionCreateInfoOverlayEXTX *overlay);
 	/// From here on the service has a session that the destructor destroys.
 	Session(Instance &instance, std::unique_ptr<Graphics> &&graphics, Granted granted);
 	void tellService(bool running);

@@ -1,5 +1,5 @@
 #include "runtime/openxr/session_life.h"
-#include "runtime/openxr/instance.h"
+#include "runtime/openxr/ext/extx_overlay.h"
 
 namespace arift::openxr
 {
@@ -60,6 +60,7 @@ void SessionLife::take(Life &life, const ipc::Event &news)
 		break;
 	case ipc::EventType::exitRequested: life.facts.exitRequested = true; break;
 	case ipc::EventType::recentered: return tellRecentered(life, news);
+	case ipc::EventType::mainVisibilityChanged: return life.events.push(mainVisibilityEvent(news));
 	case ipc::EventType::lossPending:
 		life.facts.lossPending = true;
 		lost_ = true;

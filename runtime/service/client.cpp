@@ -130,6 +130,7 @@ void Client::answer(const ipc::CreateSession &message)
 	const UniqueFd probe = isToBeProbed ? offerProbe(created) : UniqueFd();
 	sharing_ = created.sharing;
 	auto [ours, theirs] = ipc::Socket::pair();
+	role_ = {message.headless != 0, message.overlay != 0, message.placement, message.hasDepth != 0};
 	beginSession(created.session, std::move(ours));
 	// What it was begun on may have gone meanwhile, unseen by whoever ends sessions.
 	const Opened now = *world_.opened.lock();
@@ -141,13 +142,19 @@ void Client::answer(const ipc::CreateSession &message)
 void Client::beginSession(uint32_t number, ipc::Socket channel)
 {
 	swapchains_ = std::make_shared<Swapchains>(compositor_);
-	session_ = std::make_shared<Session>(number, world_.clock, std::move(channel),
-										 Session::Images{[this](uint32_t swapchain) { return swapchains_->find(swapchain); },
-														 [this](const ipc::Submission &submission) { swapchains_->fetch(submission); }},
-										 page_, [this](const std::string &problem) {
-											 log::warning("client {} is disconnected: {}", peerPid_, problem);
-											 socket_.hangUp();
-										 });
+	session_ = std::make_shared<Session>(
+		number, world_.clock, std::move(channel),
+		Session::Images{[this](uint32_t swapchain) { return swapchains_->find(swapchain); },
+						[this](const ipc::Submission &submission) { swapchains_->fetch(submission); },
+						[this, number](const ipc::Vibrate &vibration) {
+							if (world_.applications.hasFocus(number)) world_.vibrate(vibration);
+						}},
+		page_,
+		[this](const std::string &problem) {
+			log::warning("client {} is disconnected: {}", peerPid_, problem);
+			socket_.hangUp();
+		},
+		role_.order());
 	about_->update([&](About &about) {
 		about.session = session_;
 		about.swapchains = swapchains_;
@@ -214,7 +221,7 @@ void Client::answer(const ipc::SessionRunning &message)
 	session.setRunning(message.running != 0);
 	if (message.running) {
 		compositor_->addSource(session_);
-		world_.applications.begin(**page_, session.number(), world_.clock.now());
+		world_.applications.begin(**page_, session.number(), world_.clock.now(), role_);
 	} else {
 		compositor_->removeSource(session);
 		world_.applications.end(**page_, session.number(), world_.clock.now());

@@ -71,6 +71,7 @@ private:
 	ipc::Sharing sharing_ = ipc::Sharing::memory; ///< what the session may ask for
 	std::shared_ptr<Swapchains> swapchains_;
 	std::shared_ptr<Session> session_;
+	SessionRole role_; ///< of the session
 	const std::shared_ptr<Guarded<About>> about_ = std::make_shared<Guarded<About>>();
 	std::jthread thread_;
 };

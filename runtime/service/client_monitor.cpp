@@ -1,6 +1,5 @@
 // What monitors ask: status, pictures, settings, recentring, the end.
 #include "runtime/compositor/compositor.h"
-#include "runtime/motion/spaces.h"
 #include "runtime/service/client.h"
 #include "runtime/service/status.h"
 #include <nlohmann/json.hpp>
@@ -21,6 +20,7 @@ void Client::answer(const ipc::GetStatus &message)
 	nlohmann::json status = describeService(world_.config, opened.compositor->figures(message.resetFigures != 0));
 	status["passthrough"] = {{"raw", opened.compositor->rawPassthrough()}};
 	opened.describeHeadset(status);
+	status["input"] = describeInput(world_.config.input);
 	world_.describeClients(status["clients"] = nlohmann::json::array());
 	const std::string text = status.dump();
 	const UniqueFd memory = ipc::makeSealedCopy("arift-status", std::as_bytes(std::span(text)));
@@ -80,15 +80,7 @@ void Client::answer(const ipc::SetSetting &message)
 void Client::answer(const ipc::Recenter &message)
 {
 	world_.await(Stage::ready, ipc::openingLimit);
-	const XrTime now = world_.clock.now();
-	const HeadMotion head = PoseHistory(*world_.poses).at(now);
-	XrPosef moved = identityPose;
-	world_.views.update([&](ipc::ViewTable &views) {
-		const XrPosef before = views.localInOrigin;
-		views = recentred(views, head);
-		moved = inverse(before) * views.localInOrigin;
-	});
-	world_.applications.tellRecentered(moved, now);
+	world_.recenter();
 	reply(message.header, ipc::Done{});
 }
 

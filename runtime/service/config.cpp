@@ -87,6 +87,9 @@ Config decode(std::shared_ptr<const TomlDocument> document)
 	config.images = ImageSharing(swapchains.choice("images", {"auto", "copy"}, size_t(config.images)));
 	swapchains.finish();
 
+	TomlTable input = root.table("input");
+	config.input = readInput(input);
+
 	for (const std::string &name : driverNames()) root.table(name.c_str());
 	checkDriverSettings(document);
 	if (TomlTable replay = root.table("replay"); replay.has("recording")) config.recording = replay.path("recording");

@@ -1,6 +1,7 @@
 // What a person decides about the service: the configuration file, and what the command line puts above it.
 #pragma once
 #include "runtime/base/xr.h"
+#include "runtime/service/input_settings.h"
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -33,6 +34,7 @@ struct Config {
 	std::array<double, 2> bounds{2, 2};            ///< [space] bounds, metres
 	TargetKind target = TargetKind::automatic;     ///< [compositor] target
 	ImageSharing images = ImageSharing::automatic; ///< [swapchains] images
+	InputSettings input;                           ///< [input]
 };
 
 /// Where the configuration is looked for: `given`, else $ARIFT_CONFIG, else config.toml in the configuration directory if it is there.

@@ -34,7 +34,10 @@ ipc::Hello decodeHello(const ipc::Received &received)
 	require(hello.role <= ipc::Role::monitor, "hello of an unknown role");
 	return hello;
 }
-void check(const ipc::CreateSession &) {}
+void check(const ipc::CreateSession &message)
+{
+	require(message.headless <= 1 && message.overlay <= 1 && message.hasDepth <= 1, "session with what is neither yes nor no");
+}
 void check(const ipc::DestroySession &) {}
 void check(const ipc::SessionRunning &message) { require(message.running <= 1, "session running: neither begin nor end"); }
 void check(const ipc::CreateSwapchain &message)
@@ -59,6 +62,11 @@ void check(const ipc::SetSetting &message)
 	require(std::isfinite(message.value), "setting is not a number");
 }
 void check(const ipc::Recenter &) {}
+void check(const ipc::Vibrate &message)
+{
+	require(message.motors <= 3, "vibration of unknown motors");
+	require(message.amplitude >= 0 && message.amplitude <= 1, "vibration's amplitude out of range");
+}
 void check(const ipc::ShutDown &) {}
 
 template <typename M> M checked(const ipc::Received &received)
@@ -202,6 +210,7 @@ FrameRequest decodeFrameRequest(const ipc::Received &received, const FindSwapcha
 	switch (headerOf(received).type) {
 	case waitFrame: return exactly<ipc::WaitFrame>(received);
 	case relinquish: return exactly<ipc::Relinquish>(received);
+	case vibrate: return checked<ipc::Vibrate>(received);
 	case submission: return decodeSubmission(received, find);
 	default: throw Malformed("message of unknown type {} in the frame channel", uint32_t(headerOf(received).type));
 	}

@@ -13,7 +13,7 @@ using Request = std::variant<ipc::Hello, ipc::CreateSession, ipc::DestroySession
 							 ipc::DestroySwapchain, ipc::GetStatus, ipc::Screenshot, ipc::SetSetting, ipc::Recenter, ipc::ShutDown>;
 
 /// What comes through a session's frame channel.
-using FrameRequest = std::variant<ipc::WaitFrame, ipc::Submission, ipc::Relinquish>;
+using FrameRequest = std::variant<ipc::WaitFrame, ipc::Submission, ipc::Relinquish, ipc::Vibrate>;
 
 /// A client sent what no library of ours sends. It is to be disconnected; what() is for the log.
 struct Malformed : InputError {

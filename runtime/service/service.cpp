@@ -1,4 +1,5 @@
 #include "runtime/service/service.h"
+#include "runtime/service/places.h"
 #include "runtime/service/system.h"
 #include <cstdlib>
 #include <nlohmann/json.hpp>
@@ -43,6 +44,7 @@ Service::Service(Options options, ipc::Listener &listener)
 	  listener_(listener),
 	  clock_(makeClock(options_.config)),
 	  world_(options_.config, *clock_),
+	  input_(readInput()),
 	  lastSeen_(realTime())
 {
 	world_.system->protocol = ipc::protocol;
@@ -51,6 +53,12 @@ Service::Service(Options options, ipc::Listener &listener)
 	world_.system->heartbeat = realTime();
 	world_.requestStop = [this] { stop(); };
 	world_.describeClients = [this](nlohmann::json &list) { describeClients(list); };
+	world_.vibrate = [this](const ipc::Vibrate &vibration) {
+		if (input_) input_->vibrate(vibration);
+	};
+	world_.applications.focusMoves = [this] {
+		if (input_) input_->stopVibrating();
+	};
 	world_.trace = makeTrace();
 	opener_ = std::jthread([this] { open(); });
 	heart_ = std::jthread([this](std::stop_token stop) { beat(stop); });
@@ -64,6 +72,7 @@ Service::~Service()
 	std::list<Client> leaving;
 	clients_.update([&](std::list<Client> &clients) { leaving.swap(clients); });
 	leaving.clear();
+	input_.reset(); // its keys reach the compositor
 	system_.reset();
 }
 
@@ -161,6 +170,22 @@ void Service::removeFinished()
 		}
 		if (!clients.empty()) lastSeen_ = realTime();
 	});
+}
+
+/// Without a device that is switched on nothing is read and no thread runs.
+std::unique_ptr<InputThread> Service::readInput()
+try {
+	const InputSettings &settings = options_.config.input;
+	if (settings.devices.empty()) return nullptr;
+	const auto toggleRawPassthrough = [this] {
+		if (const auto compositor = world_.opened.lock()->compositor) compositor->setRawPassthrough(!compositor->rawPassthrough());
+	};
+	return std::make_unique<InputThread>(settings, makeInputDevices(inputPlaces(), settings.devices),
+										 InputThread::Deeds{[this](const ipc::InputTable &input) { world_.applications.tellInput(input); },
+															[this] { world_.recenter(); }, toggleRawPassthrough});
+} catch (const std::exception &problem) {
+	log::error("no keyboards, mice and gamepads are read: {}", problem.what());
+	return nullptr;
 }
 
 bool Service::mayLeave() { return options_.idleExit && realTime() - lastSeen_ > *options_.idleExit; }

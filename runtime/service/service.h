@@ -3,6 +3,7 @@
 #include "runtime/ipc/listener.h"
 #include "runtime/service/client.h"
 #include "runtime/service/config.h"
+#include "runtime/service/input_thread.h"
 #include "runtime/service/world.h"
 #include <list>
 #include <memory>
@@ -45,6 +46,7 @@ private:
 	void removeFinished();
 	void admit(ipc::Socket socket);
 	bool mayLeave();
+	std::unique_ptr<InputThread> readInput();
 	void fail(const std::string &problem, bool fault);
 	std::vector<std::shared_ptr<Guarded<Client::About>>> abouts();
 	void describeClients(nlohmann::json &list);
@@ -54,7 +56,8 @@ private:
 	std::unique_ptr<Clock> clock_;
 	World world_;
 	std::atomic<bool> stopping_ = false;
-	std::unique_ptr<System> system_; ///< made by opener_; read elsewhere once world_.opened says so
+	std::unique_ptr<System> system_;     ///< made by opener_; read elsewhere once world_.opened says so
+	std::unique_ptr<InputThread> input_; ///< null: nothing is switched on
 	Guarded<std::list<Client>> clients_{};
 	XrTime lastSeen_ = 0;  ///< real: when the newest client was there
 	XrTime lookAtUsb_ = 0; ///< real: when to look next what is plugged in

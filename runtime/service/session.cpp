@@ -5,8 +5,9 @@ namespace arift
 {
 
 Session::Session(uint32_t number, Clock &clock, ipc::Socket channel, Images images, std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page,
-				 std::function<void(const std::string &)> onMalformed)
+				 std::function<void(const std::string &)> onMalformed, uint64_t order)
 	: number_(number),
+	  order_(order),
 	  clock_(clock),
 	  channel_(std::move(channel)),
 	  images_(std::move(images)),

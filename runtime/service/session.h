@@ -25,14 +25,16 @@ class Session final : public FrameSource
 public:
 	static constexpr XrDuration longestHold = 5 * second;
 
-	/// What the session asks of its client's images, on its own thread.
+	/// What the session asks of its client, on its own thread.
 	struct Images {
 		FindSwapchain find;
 		/// Brings in what a submission shows, before it is shown. May throw: the session is lost then.
 		std::function<void(const ipc::Submission &)> fetch = [](const ipc::Submission &) {};
+		std::function<void(const ipc::Vibrate &)> vibrate = [](const ipc::Vibrate &) {};
 	};
+	/// `order`: where its layers are among other sessions'.
 	Session(uint32_t number, Clock &clock, ipc::Socket channel, Images images, std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page,
-			std::function<void(const std::string &)> onMalformed);
+			std::function<void(const std::string &)> onMalformed, uint64_t order = 0);
 	~Session() override;
 
 	/// The application finds its session lost; everything else goes on until close(). Thread-safe.
@@ -41,6 +43,7 @@ public:
 	void close();
 
 	uint32_t number() const override { return number_; }
+	uint64_t order() const override { return order_; }
 	/// xrBeginSession and xrEndSession. An application that waits for a frame when its session ends is told not to draw.
 	void setRunning(bool running);
 	bool running();
@@ -88,6 +91,7 @@ private:
 	void take(const ipc::WaitFrame &message);
 	void take(const ipc::Submission &message);
 	void take(const ipc::Relinquish &message);
+	void take(const ipc::Vibrate &message) { images_.vibrate(message); }
 	void dropOldHold();
 	void finish(Afterwards &afterwards);
 	static void releaseIfComplete(State &state, Afterwards &afterwards);
@@ -95,6 +99,7 @@ private:
 	static XrTime latchOf(const State &state);
 
 	const uint32_t number_;
+	const uint64_t order_;
 	Clock &clock_;
 	ipc::Socket channel_;
 	const Images images_;

@@ -5,6 +5,7 @@
 #include "runtime/service/decode.h"
 #include "runtime/service/device_threads.h"
 #include "runtime/service/lens_outline.h"
+#include "runtime/service/places.h"
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -31,13 +32,6 @@ XrExtent2Di recommendedSize(const Rig &rig)
 	const LensModel::Fov fov = rig.lens.fov(Eye::left, rig.interpupillaryDistance);
 	const double scale = rig.lens.pixelsPerTangent();
 	return {int32_t(std::ceil((fov.left + fov.right) * scale)), int32_t(std::ceil((fov.up + fov.down) * scale))};
-}
-
-/// Where the kernel lists what is plugged in: tests have a list of their own.
-std::filesystem::path sysfs()
-{
-	const char *named = std::getenv("ARIFT_SYSFS");
-	return named && *named ? named : "/sys";
 }
 
 std::string systemName(const std::string &headset) { return fmt::format("ARift ({})", headset); }

@@ -1,4 +1,5 @@
 #include "runtime/service/world.h"
+#include "runtime/motion/spaces.h"
 #include "runtime/service/swapchains.h"
 
 namespace arift
@@ -12,6 +13,19 @@ Opened World::await(Stage stage, XrDuration limit)
 	if (access->stage == Stage::failed) throw Refused(XR_ERROR_RUNTIME_UNAVAILABLE, access->problem);
 	if (access->stage == Stage::stopping) throw Refused(XR_ERROR_RUNTIME_UNAVAILABLE, "arift-service is being stopped");
 	return *access;
+}
+
+void World::recenter()
+{
+	const XrTime now = clock.now();
+	const HeadMotion head = PoseHistory(*poses).at(now);
+	XrPosef moved = identityPose;
+	views.update([&](ipc::ViewTable &table) {
+		const XrPosef before = table.localInOrigin;
+		table = recentred(table, head);
+		moved = inverse(before) * table.localInOrigin;
+	});
+	applications.tellRecentered(moved, now);
 }
 
 } // namespace arift

@@ -75,11 +75,15 @@ struct World {
 	Realtime realtime;
 	Overrides overrides;
 	std::function<void()> requestStop;
+	/// What the motors of the gamepad are to do.
+	std::function<void(const ipc::Vibrate &)> vibrate;
 	/// One line per client for `arift status`.
 	std::function<void(nlohmann::json &)> describeClients;
 
 	/// Waits until the service has come to `stage`, at most `limit` of real time. Throws Refused with the reason where it does not.
 	Opened await(Stage stage, XrDuration limit);
+	/// LOCAL and all that hangs on it begin where the head is now, for everybody. Thread-safe.
+	void recenter();
 };
 
 } // namespace arift

@@ -125,7 +125,7 @@ void FakeService::answer(ipc::Socket &socket, const ipc::Received &received)
 		record_.update([&](Record &record) { record.hellos.push_back(*hello); });
 		return reply(socket, received, welcome_, std::array{system_.fd(), ring_.fd(), client_.fd()});
 	}
-	if (received.as<ipc::CreateSession>()) {
+	if (const auto asked = received.as<ipc::CreateSession>()) {
 		if (refusal_ != XR_SUCCESS) return reply(socket, received, ipc::Failed{.result = refusal_});
 		auto [ours, theirs] = ipc::Socket::pair();
 		if (readingFrames_) {
@@ -135,7 +135,10 @@ void FakeService::answer(ipc::Socket &socket, const ipc::Received &received)
 			unread_.emplace(std::move(ours));
 		}
 		uint32_t number = 0;
-		record_.update([&](Record &record) { number = ++record.sessionsCreated; });
+		record_.update([&](Record &record) {
+			number = ++record.sessionsCreated;
+			record.sessions.push_back(*asked);
+		});
 		ipc::SessionCreated created{.session = number};
 		const UniqueFd further = (*grant_.lock())(created);
 		const std::array fds{theirs.fd(), further.get()};
@@ -178,6 +181,8 @@ void FakeService::serveFrames(ipc::Socket &socket, const std::stop_token &stop)
 		} else if (const auto relinquish = received.as<ipc::Relinquish>()) {
 			client_->oldestHeldFrame = relinquish->frame + 1;
 			record_.update([&](Record &record) { record.relinquished.push_back(relinquish->frame); });
+		} else if (const auto vibrate = received.as<ipc::Vibrate>()) {
+			record_.update([&](Record &record) { record.vibrations.push_back(*vibrate); });
 		} else if (received.header()->type == ipc::MessageType::submission) {
 			ipc::Submission submission;
 			std::memcpy(static_cast<void *>(&submission), received.bytes.data(), received.size);

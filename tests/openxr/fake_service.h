@@ -62,6 +62,8 @@ public:
 		std::vector<ipc::CreateSwapchain> swapchains;
 		uint32_t sessionsCreated = 0, sessionsDestroyed = 0, swapchainsDestroyed = 0;
 		bool running = false;
+		std::vector<ipc::CreateSession> sessions;
+		std::vector<ipc::Vibrate> vibrations;
 	};
 	/// The record when it fulfils `ready`; the test fails after ten seconds.
 	Record waitFor(const std::function<bool(const Record &)> &ready);

@@ -49,6 +49,12 @@ void print(const nlohmann::json &status)
 								 camera["dropped"].get<uint64_t>(), camera["malformed"].get<uint64_t>());
 	std::cout << fmt::format("tracker   {}: {:.0f} samples per second, {} lost, {} malformed reports\n", tracker["name"].get<std::string>(),
 							 tracker["rate"].get<double>(), tracker["lost"].get<uint64_t>(), tracker["malformed"].get<uint64_t>());
+	for (const auto &device : status["input"]) {
+		const auto problem = device["problem"].get<std::string>();
+		std::cout << fmt::format("input     {} ({}, {}): {}{}\n", device["name"].get<std::string>(), device["kind"].get<std::string>(),
+								 device["node"].get<std::string>(), device["on"].get<bool>() ? "on" : "off",
+								 problem.empty() ? "" : fmt::format(", but cannot be read: {}", problem));
+	}
 	for (const auto &client : status["clients"]) {
 		std::cout << fmt::format("client    {} (pid {}): {}, {} submitted, {} shown, seen {} after they came\n",
 								 client["name"].get<std::string>(), client["pid"].get<int>(), client["state"].get<std::string>(),

@@ -22,7 +22,10 @@ void setValue(Session &session, XrPath user, XrPath source, const InputValue &va
 	const std::string &path = session.instance.paths.text(source);
 	if (!path.starts_with(session.instance.paths.text(user) + "/"))
 		throw Error(XR_ERROR_PATH_UNSUPPORTED, "{} does not lie below {}", path, session.instance.paths.text(user));
-	session.input.changeDevices([&](InputDevices &devices) { devices[user].values[source] = value; });
+	session.input.changeDevices([&](InputDevices &devices) {
+		devices[user].isPlayed = true;
+		devices[user].values[source] = value;
+	});
 }
 
 /// Before the person, where hands are held, until the application says otherwise.
@@ -30,14 +33,6 @@ Placed usualPlace(std::string_view user)
 {
 	const float aside = user.ends_with("left") ? -0.2f : user.ends_with("right") ? 0.2f : 0;
 	return {SpaceKind::local, {identityOrientation, {aside, -0.3f, -0.4f}}};
-}
-
-/// What lies on the surface of a device that is held: turned against the grip as on usual controllers.
-Placed onSurface(Placed grip)
-{
-	constexpr float sine = -0.3826834f, cosine = 0.9238795f; // 45 degrees about x, half
-	grip.pose.orientation = {sine, 0, 0, cosine};
-	return grip;
 }
 
 } // namespace
@@ -55,6 +50,7 @@ void setInputDeviceActive(Session &session, XrPath interactionProfile, XrPath to
 						   [&](const char *surface) { return session.instance.paths.atom(user + surface); });
 	session.input.changeDevices([&](InputDevices &devices) {
 		InputDevice &device = devices[topLevelPath];
+		device.isPlayed = true;
 		device.profile = interactionProfile;
 		device.isActive = isActive == XR_TRUE;
 		device.place = place;

@@ -16,10 +16,11 @@ namespace
 
 constexpr XrDuration answerLimit = 30 * second; // real time; a software renderer on a busy machine is slow
 
-ChildProcess startService(const PrivateTree &tree, const std::string &configuration, std::vector<std::string> arguments)
+ChildProcess startService(const PrivateTree &tree, const std::string &configuration, std::vector<std::string> arguments,
+						  const std::string &program)
 {
 	const std::filesystem::path file = tree.write("config/arift/config.toml", configuration);
-	arguments.insert(arguments.begin(), {(programDirectory() / "arift-service").string(), "--config", file.string()});
+	arguments.insert(arguments.begin(), {(programDirectory() / program).string(), "--config", file.string()});
 	return ChildProcess(arguments, tree.environment(), tree.root() / "service.log");
 }
 
@@ -53,8 +54,8 @@ std::optional<ipc::Socket> connectTo(const PrivateTree &tree)
 	return ipc::Socket(std::move(fd));
 }
 
-PrivateService::PrivateService(const std::string &configuration, std::vector<std::string> arguments)
-	: tree_(std::make_unique<PrivateTree>()), service_(startService(*tree_, configuration, std::move(arguments)))
+PrivateService::PrivateService(const std::string &configuration, std::vector<std::string> arguments, const std::string &program)
+	: tree_(std::make_unique<PrivateTree>()), service_(startService(*tree_, configuration, std::move(arguments), program))
 {
 	const XrTime deadline = realTime() + answerLimit;
 	while (!connection_) {

@@ -26,8 +26,9 @@ std::optional<ipc::Socket> connectTo(const PrivateTree &tree);
 class PrivateService
 {
 public:
-	/// Starts the service with `configuration` (TOML text) and waits until it answers.
-	explicit PrivateService(const std::string &configuration, std::vector<std::string> arguments = {});
+	/// Starts the service with `configuration` (TOML text) and waits until it answers. `program`: of this build tree.
+	explicit PrivateService(const std::string &configuration, std::vector<std::string> arguments = {},
+							const std::string &program = "arift-service");
 	~PrivateService();
 	PrivateService(PrivateService &&) noexcept;
 

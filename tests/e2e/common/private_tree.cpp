@@ -28,6 +28,7 @@ std::map<std::string, std::string> PrivateTree::environment() const
 	all["XDG_CONFIG_HOME"] = (root() / "config").string();
 	all["XDG_STATE_HOME"] = (root() / "state").string();
 	all["ARIFT_SYSFS"] = (root() / "sys").string(); // nothing is plugged in until a test does so
+	all["ARIFT_DEV"] = (root() / "dev").string();
 	all["XR_RUNTIME_JSON"] = (programDirectory().parent_path() / "openxr_arift.json").string();
 	return all;
 }

@@ -27,8 +27,10 @@ bool isReadable(int fd)
 	return ::poll(&polled, 1, longestWaitMs) > 0;
 }
 
-UniqueFd listenOn(const fs::path &path)
+/// The node is there when it can be opened, and not before.
+UniqueFd listenOn(const fs::path &node)
 {
+	const fs::path path = node.string() + "~";
 	UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
 	sockaddr_un address{};
 	address.sun_family = AF_UNIX;
@@ -36,6 +38,7 @@ UniqueFd listenOn(const fs::path &path)
 	std::strcpy(address.sun_path, path.c_str());
 	if (::bind(fd.get(), reinterpret_cast<const sockaddr *>(&address), sizeof(address)) != 0 || ::listen(fd.get(), 4) != 0)
 		throw std::runtime_error(path.string() + ": " + std::strerror(errno));
+	fs::rename(path, node);
 	return fd;
 }
 
@@ -103,7 +106,7 @@ FakeInputDevice::FakeInputDevice(InputFolders folders, std::string node, const I
 	state_->types.set(EV_ABS, !model.axes.empty());
 	state_->types.set(EV_FF, model.rumbles);
 	writeSysfs(model);
-	const mode_t before = ::umask(0777 & ~permissions); // the node is there with its rights at once
+	const mode_t before = ::umask(0777 & ~permissions);
 	listener_ = listenOn(path_);
 	::umask(before);
 }
@@ -135,6 +138,12 @@ void FakeInputDevice::waitForReader()
 	if (reader_) return;
 	if (!isReadable(listener_.get())) throw std::runtime_error(node_ + " is not opened by anybody");
 	reader_ = UniqueFd(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+}
+
+bool FakeInputDevice::isOpened() const
+{
+	pollfd polled{listener_.get(), POLLIN, 0};
+	return reader_ || ::poll(&polled, 1, 0) > 0;
 }
 
 void FakeInputDevice::note(const Change &change)

@@ -48,6 +48,7 @@ public:
 	void setPermissions(unsigned permissions) const;
 	/// Until the program has opened it.
 	void waitForReader();
+	bool isOpened() const;
 	struct Change {
 		int type, code, value;
 	};

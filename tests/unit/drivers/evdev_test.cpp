@@ -90,6 +90,7 @@ TEST_F(Evdev, ADeviceThatIsNotWantedIsNotOpened)
 	FakeInputDevice other(folders, "event0", InputModel::keyboard("Somebody's Keyboard")), ours(folders, "event1", InputModel::keyboard());
 	next();
 	EXPECT_EQ(look(), Outcome::timeout);
+	EXPECT_TRUE(ours.isOpened() && !other.isOpened());
 	ours.press(KEY_A);
 	EXPECT_EQ(next().keys.size(), 1u);
 }

@@ -45,6 +45,7 @@ TEST(DefaultConfiguration, ReadsAsTheDefaults)
 	EXPECT_EQ(given.bounds, defaults.bounds);
 	EXPECT_EQ(given.target, defaults.target);
 	EXPECT_EQ(given.images, defaults.images);
+	EXPECT_EQ(given.input, defaults.input);
 }
 
 TEST(DefaultConfiguration, TheSyntheticHeadsetsSettingsAreItsDefaults)
@@ -99,7 +100,7 @@ TEST(DefaultConfiguration, ListsEverySetting)
 		if (std::regex_search(line, match, setting)) listed[section].insert(match[1]);
 	}
 	const std::vector<std::string> sections = keysOf("");
-	EXPECT_EQ(sections.size(), 8u);
+	EXPECT_EQ(sections.size(), 9u);
 	for (const std::string &name : sections) {
 		const std::vector<std::string> keys = keysOf(name + ".");
 		EXPECT_EQ(listed[name], std::set<std::string>(keys.begin(), keys.end())) << name;

@@ -96,9 +96,10 @@ TEST_F(ConfigFile, ComplaintsNamePlaceValueAndWhatWasExpected)
 		{"[clock]\nmode = 'real'\nrate = 2", "config.toml:3: clock.rate = 2, expected no rate unless clock.mode = \"scaled\""},
 		{"[headset]\ndrive = 'dk1'", "config.toml:2: unknown key headset.drive = 'dk1', expected one of: driver, rig"},
 		{"\n[pass_through]\n", "config.toml:2: unknown key pass_through = (a table), expected one of: clock, compositor, headset, "
-							   "passthrough, replay, space, swapchains, synthetic"},
-		{"[dk1]\n", "config.toml:1: unknown key dk1 = (a table), expected one of: clock, compositor, headset, passthrough, replay, space, "
-					"swapchains, synthetic"},
+							   "input, passthrough, replay, space, swapchains, synthetic"},
+		{"[dk1]\n",
+		 "config.toml:1: unknown key dk1 = (a table), expected one of: clock, compositor, headset, input, passthrough, replay, space, "
+		 "swapchains, synthetic"},
 		{"[headset]\ndriver = 'dk1'", "config.toml:2: headset.driver = 'dk1', expected one of \"auto\", \"synthetic\", \"replay\""},
 		{"[headset]\ndriver = 'synthetic'\n[replay]\nlop = true",
 		 "config.toml:4: unknown key replay.lop = true, expected one of: loop, recording"},
