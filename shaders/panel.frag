@@ -1,4 +1,5 @@
 #version 450
+#extension GL_GOOGLE_include_directive : require
 // One pixel: lens -> tangents per colour -> camera texel and layer texel at this line's pose -> blended in linear light.
 // Written for a software renderer as much as for a GPU: what costs there is the length of the chain of dependent operations, functions that
 // sample float textures or encoded ones, and every fetch from memory.
@@ -31,8 +32,11 @@ ARIFT_NUMBER(53, cosineScale) ARIFT_NUMBER(54, affineXx) ARIFT_NUMBER(55, affine
 ARIFT_NUMBER(57, affineYy) ARIFT_NUMBER(58, p1) ARIFT_NUMBER(59, p2) ARIFT_NUMBER(60, xi)
 ARIFT_NUMBER(61, tableScale) ARIFT_NUMBER(62, leastCosine) ARIFT_NUMBER(63, cosineFade) ARIFT_NUMBER(64, texelFade)
 ARIFT_NUMBER(65, imageWidth) ARIFT_NUMBER(66, imageHeight)
+layout(constant_id = 67) const int look = 0;                 // Look (compositor/pipelines.h) of the cameras' image
+layout(constant_id = 68) const bool keyed = false;           // a colour of the layer stands for what is behind it
 
 const int coverNone = 0, coverPartly = 1, coverFully = 2, coverOpaque = 3;
+const int lookBackdrop = 0, lookFaded = 1, lookStyled = 2;
 const int backgroundNone = 0, backgroundPattern = 1, backgroundCamera = 2, backgroundUnseen = 3;
 
 layout(set = 0, binding = 1) uniform sampler2D sites;        // CameraImages: each texel the four neighbours that a place lies between
@@ -48,6 +52,7 @@ layout(location = 10) flat in vec4 colourRange;
 layout(location = 11) flat in vec4 fillColour;
 layout(location = 12) flat in vec4 layerBounds;
 layout(location = 13) flat in vec4 layerMode;
+layout(location = 14) flat in vec4 layerFurther[2];
 
 layout(location = 0, index = 0) out vec4 light;
 layout(location = 0, index = 1) out vec4 cover;              // for blending over what is there already
@@ -75,6 +80,9 @@ vec4 decoded(vec4 v)
 {
 	return ((((0.749220899 * v - 1.77447071) * v + 1.76711091) * v + 0.195501003) * v + 0.066401595) * v;
 }
+
+#include "chroma_key.glsl"
+#include "passthrough.glsl"
 
 /// Never NaN.
 vec2 within(vec2 v, vec2 least, vec2 most)
@@ -136,6 +144,16 @@ vec3 rawColour(vec2 red, vec2 green, vec2 blue)
 	return upper + (lower - upper) * y;
 }
 
+/// At a texel, in the cameras' image as it was taken.
+float edgeAt(vec2 green)
+{
+	const vec2 base = floor(green * siteScale.x + siteOffset[0].zw);
+	const vec4 four = (texelFetch(sites, ivec2(clamp(base, vec2(0.0), siteScale.zw)), 0) - colourRange.w) * colourRange.y;
+	return edgeOf(encoded ? four : encodedLight(four));
+}
+
+float edge = 0.0; // what behindLayers finds of one, where the look has edges
+
 vec3 behindLayers(vec2 tangents, Chromatic chromatic, float r2)
 {
 	if (background == backgroundNone) return vec3(0.0);
@@ -154,10 +172,25 @@ vec3 behindLayers(vec2 tangents, Chromatic chromatic, float r2)
 	const vec2 red = redItself ? texelOf(cameraMatrix[2] + across * chromatic.red, unused) : green + (blue - green) * chromatic.redFromBlue;
 	vec3 colour = rawColour(red, green, blue);
 	if (encoded) colour = decoded(vec4(colour, 0.0)).rgb;
+	if (look == lookStyled) edge = edgeAt(green) * seen(green, cosine);
 	return mix(fill, max((colour - colourRange.w) * colourRange.xyz, 0.0), seen(green, cosine));
 }
 
 // ---- layer
+
+/// How much of each of four texels the key leaves.
+vec4 keptOf(vec2 middle)
+{
+	vec4 red = textureGather(layerTexture, middle, 0), green = textureGather(layerTexture, middle, 1);
+	vec4 blue = textureGather(layerTexture, middle, 2), kept;
+	if (!layerEncoded) {
+		red = encodedLight(red);
+		green = encodedLight(green);
+		blue = encodedLight(blue);
+	}
+	for (int i = 0; i < 4; ++i) kept[i] = keptBy(vec3(red[i], green[i], blue[i]), layerFurther[0].rgb, layerFurther[0].a, layerFurther[1].x);
+	return kept;
+}
 
 /// Light and cover of one colour at a texel (integers at texel centres): between the four texels around it, after decoding them.
 vec2 layerTexel(vec2 texel, float w, int channel)
@@ -169,8 +202,12 @@ vec2 layerTexel(vec2 texel, float w, int channel)
 	vec4 value = channel == 0   ? textureGather(layerTexture, middle, 0)
 				 : channel == 1 ? textureGather(layerTexture, middle, 1)
 								: textureGather(layerTexture, middle, 2);
-	const vec4 alpha = textureGather(layerTexture, middle, 3);
+	vec4 alpha = textureGather(layerTexture, middle, 3);
+	if (keyed) alpha = keptOf(middle);
 	if (layerEncoded) value = decoded(value);
+	// What is half the key's colour has that much of it to lose.
+	if (keyed) value = max(value - (1.0 - alpha) * decoded(vec4(layerFurther[0].rgb, 0.0))[channel], 0.0) * layerFurther[1].y;
+	if (keyed) alpha *= layerFurther[1].y;
 	if (layerCover == coverOpaque) {
 		const vec2 across = value.wx + (value.zy - value.wx) * part.x;
 		return vec2(across.x + (across.y - across.x) * part.y, 1.0);
@@ -204,6 +241,19 @@ void layerLight(vec2 tangents, Chromatic chromatic, out vec3 colour, out vec3 al
 	colour = vec3(r.x, g.x, b.x) * (1.0 + layerMode.w * (alpha - 1.0));
 }
 
+// ---- passthrough layer
+
+/// Premultiplied light of the cameras' image in the layer's style, and how much it covers.
+vec4 styled(vec3 colour)
+{
+	if (look == lookFaded) return vec4(colour, 1.0) * layerBounds.x;
+	const float grey = clamp(encodedLight(vec4(dot(colour, luma709))).x, 0.0, 1.0);
+	const vec4 map = textureLod(layerTexture, vec2((grey * 255.0 + 0.5) / 256.0, 0.5), 0.0);
+	const float mapped = layerFurther[0].x, opacity = layerBounds.x * mix(1.0, map.a, mapped);
+	const vec3 picture = mix(adjusted(colour, layerBounds.y, layerBounds.z, layerBounds.w), decoded(map).rgb, mapped);
+	return mix(vec4(picture, 1.0) * opacity, vec4(layerMode.rgb, 1.0), edge * layerMode.a);
+}
+
 void main()
 {
 	const float r2 = dot(lensVector, lensVector);
@@ -218,6 +268,11 @@ void main()
 			redFromBlue0 + redFromBlue1 * r2Shown);
 	}
 	vec3 colour = behindLayers(tangents, chromatic, r2), alpha = vec3(0.0);
+	if (look != lookBackdrop) {
+		const vec4 layer = styled(colour);
+		colour = layer.rgb;
+		alpha = vec3(layer.a);
+	}
 	if (layerCover != coverNone) {
 		vec3 layerColour;
 		layerLight(tangents, chromatic, layerColour, alpha);

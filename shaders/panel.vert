@@ -20,6 +20,7 @@ layout(location = 10) flat out vec4 colourRange;
 layout(location = 11) flat out vec4 fillColour;
 layout(location = 12) flat out vec4 layerBounds;
 layout(location = 13) flat out vec4 layerMode;
+layout(location = 14) flat out vec4 layerFurther[2];
 
 mat3 atLine(MatrixByLine m, float s)
 {
@@ -40,4 +41,6 @@ void main()
 	fillColour = eye.fill;
 	layerBounds = layer.bounds;
 	layerMode = layer.mode;
+	layerFurther[0] = vec4(layer.texel.first[0].w, layer.texel.first[1].w, layer.texel.first[2].w, layer.texel.change[0].w);
+	layerFurther[1] = vec4(layer.texel.change[1].w, layer.texel.change[2].w, 0.0, 0.0);
 }

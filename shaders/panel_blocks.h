@@ -28,6 +28,9 @@ struct EyeBlock {
 };
 
 /// One layer as one eye sees it, one band of lines. Push constants: just the 128 bytes that every device has.
+/// What else a layer has lies in the w of its matrix's columns, `first` before `change`. Keyed out: the key's colour (encoded), tolerance,
+/// softness, opacity. Passthrough: 1 where there is a map; its bounds are opacity, brightness, contrast and saturation, its mode is the
+/// colour of edges.
 struct LayerBlock {
 	MatrixByLine texel; ///< (tangents, 1) -> (x w, y w, w) with x, y texels of the image, integers at their centres, and w > 0 in front
 	vec4 bounds;        ///< first and last texel of the sub-image: xy, zw

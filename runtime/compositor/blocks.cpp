@@ -14,16 +14,6 @@ constexpr glm::vec3 calm{0.018f, 0.021f, 0.026f};
 constexpr glm::vec3 amber{0.16f, 0.07f, 0.008f};
 constexpr float staleWeight = 0.6f;
 
-shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band)
-{
-	shaders::MatrixByLine block{};
-	for (int column = 0; column < 3; ++column) {
-		block.first[column] = glm::vec4(glm::dvec4(m[band][column], 0));
-		block.change[column] = glm::vec4(glm::dvec4(m[band + 1][column] - m[band][column], 0));
-	}
-	return block;
-}
-
 /// Texels to sites of the frame's lattices (camera_sites.h).
 void describeSites(shaders::EyeBlock &block, const CameraFrame &frame)
 {
@@ -55,6 +45,16 @@ bool isFinite(const MatrixByBand &matrices)
 }
 
 } // namespace
+
+shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band)
+{
+	shaders::MatrixByLine block{};
+	for (int column = 0; column < 3; ++column) {
+		block.first[column] = glm::vec4(glm::dvec4(m[band][column], 0));
+		block.change[column] = glm::vec4(glm::dvec4(m[band + 1][column] - m[band][column], 0));
+	}
+	return block;
+}
 
 std::array<std::array<EyeAtLine, 2>, bandCount + 1> eyesByBand(const PanelInputs &inputs, const TileGrid &grid, uint32_t height)
 {
@@ -114,10 +114,12 @@ std::optional<MatrixByBand> layerMatrices(const PanelLayer &layer, size_t eye,
 
 const LayerTexture &textureOf(const PanelLayer &layer, size_t eye)
 {
-	return layer.projection[eye] ? layer.projection[eye]->texture : layer.quad[eye]->texture;
+	if (layer.projection[eye]) return layer.projection[eye]->texture;
+	if (layer.quad[eye]) return layer.quad[eye]->texture;
+	return layer.curved[eye] ? layer.curved[eye]->texture : layer.cube[eye]->texture;
 }
 
-bool isOpaque(const PanelLayer &layer) { return !(layer.flags & XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT); }
+bool isOpaque(const PanelLayer &layer) { return !(layer.flags & XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT) && !layer.key; }
 
 shaders::LayerBlock layerBlock(const PanelLayer &layer, size_t eye, uint32_t band, const MatrixByBand &uv, uint32_t width, uint32_t height)
 {
@@ -126,11 +128,30 @@ shaders::LayerBlock layerBlock(const PanelLayer &layer, size_t eye, uint32_t ban
 	const glm::dmat3 toTexel(extent.x, 0, 0, 0, extent.y, 0, corner.x - 0.5, corner.y - 0.5, 1);
 	MatrixByBand texel;
 	std::ranges::transform(uv, texel.begin(), [&](const glm::dmat3 &m) { return toTexel * m; });
-	const bool multiply = !isOpaque(layer) && (layer.flags & XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT);
+	const bool multiply = !isOpaque(layer) && !layer.key && (layer.flags & XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT);
 	shaders::LayerBlock block{};
 	block.texel = byLine(texel, band);
 	block.bounds = {corner.x, corner.y, corner.x + extent.x - 1, corner.y + extent.y - 1};
 	block.mode = {1.0f / float(width), 1.0f / float(height), isOpaque(layer) ? 1 : 0, multiply ? 1 : 0};
+	if (layer.key) addKey(block, *layer.key);
+	return block;
+}
+
+void addKey(shaders::LayerBlock &block, const KeyedOut &keyed)
+{
+	const auto &[red, green, blue] = keyed.key.colour;
+	const std::array first{red, green, blue};
+	for (int column = 0; column < 3; ++column) block.texel.first[column].w = first[size_t(column)];
+	const std::array change{keyed.key.tolerance, keyed.key.softness, keyed.opacity};
+	for (int column = 0; column < 3; ++column) block.texel.change[column].w = change[size_t(column)];
+}
+
+shaders::LayerBlock passthroughBlock(const PassthroughStyle &style)
+{
+	shaders::LayerBlock block{};
+	block.texel.first[0].w = style.map ? 1 : 0;
+	block.bounds = {style.opacity, style.brightness, style.contrast, style.saturation};
+	block.mode = {style.edge.r, style.edge.g, style.edge.b, style.edge.a};
 	return block;
 }
 

@@ -28,6 +28,9 @@ struct EyeDraw {
 /// `camera`: cameraMatrix() by band, or directionMatrix() without a camera.
 shaders::EyeBlock eyeBlock(const EyeDraw &draw, uint32_t band, const MatrixByBand &camera);
 
+/// What a shader interpolates within a band.
+shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band);
+
 /// The layer's uv matrices by band; nothing where this eye does not see it.
 std::optional<MatrixByBand> layerMatrices(const PanelLayer &layer, size_t eye,
 										  const std::array<std::array<EyeAtLine, 2>, bandCount + 1> &eyes);
@@ -35,5 +38,9 @@ const LayerTexture &textureOf(const PanelLayer &layer, size_t eye);
 bool isOpaque(const PanelLayer &layer);
 /// `width` and `height` of the whole image, texels.
 shaders::LayerBlock layerBlock(const PanelLayer &layer, size_t eye, uint32_t band, const MatrixByBand &uv, uint32_t width, uint32_t height);
+
+/// What a layer that is keyed out has besides, and a whole passthrough layer.
+void addKey(shaders::LayerBlock &block, const KeyedOut &keyed);
+shaders::LayerBlock passthroughBlock(const PassthroughStyle &style);
 
 } // namespace arift

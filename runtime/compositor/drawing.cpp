@@ -8,13 +8,14 @@ namespace arift
 namespace
 {
 
-bool lies(const LayerTexture &texture, const gpu::ImageSpec &spec)
+bool lies(const LayerTexture &texture, const gpu::ImageSpec &spec, Surface surface)
 {
+	if (gpu::isCube(spec) != (surface == Surface::cube)) return false;
 	const XrOffset2Di &corner = texture.rect.offset;
 	const XrExtent2Di &extent = texture.rect.extent;
 	return corner.x >= 0 && corner.y >= 0 && extent.width > 0 && extent.height > 0 &&
 		   int64_t(corner.x) + extent.width <= int64_t(spec.width) && int64_t(corner.y) + extent.height <= int64_t(spec.height) &&
-		   texture.arrayIndex < spec.arrayLayers;
+		   texture.arrayIndex < (gpu::isCube(spec) ? spec.arrayLayers / 6 : spec.arrayLayers);
 }
 
 /// A texel's light reaches into its neighbours. `texture` must outlive the answer. `wholly`: the layer hides what is behind it, whatever
@@ -38,7 +39,7 @@ PipelineKey backdropOf(const CameraView *camera, bool throughLens)
 	return {.background = Background::camera, .camera = camera->lens, .encoded = !camera->linear, .throughLens = throughLens};
 }
 
-/// Pictures for people are rare: they have no pipelines of their own for what lies wholly inside a layer.
+/// Pictures for people and layers with a key are rare: they have no pipelines of their own for what lies wholly inside a layer.
 void blendEverywhere(FrameVector<Cover> &cover)
 {
 	std::ranges::replace_if(
@@ -70,9 +71,14 @@ public:
 		covers_.resize(count);
 		blocks_.resize(count);
 		encoded_.resize(count);
+		surfaces_.resize(count);
+		needsAlpha_.resize(count);
+		for (size_t i = 0; i < count; ++i) needsAlpha_[i] = needsAlphaBelow(draw_.inputs.layers[i]);
+		gathers_ =
+			draw_.inputs.blendMode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND && std::ranges::find(needsAlpha_, true) != needsAlpha_.end();
 		for (size_t i = 0; i < count; ++i) addLayer(i);
 		const PipelineKey backdrop = backdropOf(camera, draw_.geometry.throughLens);
-		for (const TileDraw &tiles : planDraws(draw_.grid, draw_.inputs.blendMode, covers_, seen)) addItem(tiles, backdrop, firstEyeBlock);
+		addItems(backdrop, firstEyeBlock, seen);
 	}
 
 private:
@@ -90,19 +96,86 @@ private:
 	void addLayer(size_t index)
 	{
 		const PanelLayer &layer = draw_.inputs.layers[index];
+		const Surface surface = surfaceOf(layer, draw_.eye);
+		if (surface == Surface::none) return;
+		const LayerTexture &texture = textureOf(layer, draw_.eye);
+		const auto image = findImage_(texture);
+		if (!image || !lies(texture, *image->spec, surface)) return;
+		surfaces_[index] = isPlain(layer) && !gathers_ ? Surface::none : surface;
+		if (surfaces_[index] == Surface::none)
+			addPlain(index, layer, *image);
+		else
+			addSurface(index, layer, *image);
+	}
+
+	void addPlain(size_t index, const PanelLayer &layer, const KnownImage &image)
+	{
 		const auto matrices = layerMatrices(layer, draw_.eye, eyes_);
 		if (!matrices) return;
 		const LayerTexture &texture = textureOf(layer, draw_.eye);
-		const auto image = findImage_(texture);
-		if (!image || !lies(texture, *image->spec)) return;
 		// Half a texel within the edge, what lies beyond it would be mixed in.
 		const glm::dvec2 border(0.5 / texture.rect.extent.width, 0.5 / texture.rect.extent.height);
-		covers_[index] = coverage(draw_.grid, *matrices, border, contentOf(texture, image->occupancy, isOpaque(layer)));
-		if (!draw_.geometry.throughLens) blendEverywhere(covers_[index]);
-		encoded_[index] = gpu::storedFormat(VkFormat(image->spec->format)) != VkFormat(image->spec->format);
+		covers_[index] =
+			coverage(draw_.grid, *matrices, border, contentOf(texture, layer.key ? nullptr : image.occupancy, isOpaque(layer)));
+		if (!draw_.geometry.throughLens || layer.key) blendEverywhere(covers_[index]);
+		encoded_[index] = gpu::storedFormat(VkFormat(image.spec->format)) != VkFormat(image.spec->format);
 		blocks_[index] = uint32_t(drawing_.layerBlocks.size());
 		for (uint32_t band = 0; band < bandCount; ++band)
-			drawing_.layerBlocks.push_back(layerBlock(layer, draw_.eye, band, *matrices, image->spec->width, image->spec->height));
+			drawing_.layerBlocks.push_back(layerBlock(layer, draw_.eye, band, *matrices, image.spec->width, image.spec->height));
+	}
+
+	/// Where its image is empty, a layer may have a bias, or hide what is below it.
+	void addSurface(size_t index, const PanelLayer &layer, const KnownImage &image)
+	{
+		const auto rays = surfaceRays(layer, draw_.eye, eyes_);
+		if (!rays) return;
+		Occupancy *occupancy = isShownWhereEmpty(layer) ? nullptr : image.occupancy;
+		covers_[index] = surfaceCoverage(draw_.grid, layer, draw_.eye, *rays, contentOf(textureOf(layer, draw_.eye), occupancy, false));
+		blocks_[index] = uint32_t(drawing_.surfaceBlocks.size());
+		for (uint32_t band = 0; band < bandCount; ++band)
+			drawing_.surfaceBlocks.push_back(surfaceBlock(layer, draw_.eye, band, *rays, *image.spec));
+	}
+
+	/// The layers below the first passthrough layer, that one over them, those above it over both, and so on.
+	void addItems(const PipelineKey &backdrop, uint32_t firstEyeBlock, const FrameVector<bool> &seen)
+	{
+		const std::span<const FrameVector<Cover>> covers = covers_;
+		size_t begin = 0;
+		for (size_t i = 0; i <= covers.size(); ++i) {
+			const bool isPassthrough = i < covers.size() && draw_.inputs.layers[i].passthrough;
+			if (i < covers.size() && !isPassthrough) continue;
+			const Base base = begin == 0 ? Base::replaced : Base::kept;
+			const FrameVector<bool> needsAlpha(needsAlpha_.begin() + ptrdiff_t(begin), needsAlpha_.begin() + ptrdiff_t(i));
+			for (TileDraw &tiles :
+				 planDraws(draw_.grid, draw_.inputs.blendMode, covers.subspan(begin, i - begin), seen, base, needsAlpha)) {
+				if (tiles.layer >= 0) tiles.layer += int(begin);
+				addItem(tiles, backdrop, firstEyeBlock);
+			}
+			if (isPassthrough) addPassthrough(*draw_.inputs.layers[i].passthrough, backdrop, firstEyeBlock);
+			begin = i + 1;
+		}
+	}
+
+	void addPassthrough(PassthroughStyle style, const PipelineKey &backdrop, uint32_t firstEyeBlock)
+	{
+		if (style.map && !findImage_(*style.map)) style.map.reset();
+		DrawItem item{.pipeline = backdrop, .layerBlock = uint32_t(drawing_.layerBlocks.size())};
+		item.pipeline.blend = Blend::over;
+		item.pipeline.look = style.isChanged() ? Look::styled : Look::faded;
+		if (style.map) item.image = style.map->image;
+		drawing_.layerBlocks.push_back(passthroughBlock(style));
+		for (const TileDraw &everywhere : planDraws(draw_.grid, XR_ENVIRONMENT_BLEND_MODE_OPAQUE, {})) {
+			item.eyeBlock = firstEyeBlock + everywhere.band;
+			addRects(item, everywhere.rects);
+		}
+	}
+
+	void addRects(DrawItem item, const FrameVector<PixelRect> &rects)
+	{
+		item.firstVertex = uint32_t(drawing_.vertices.size());
+		for (const PixelRect &rect : rects) addRect(drawing_, rect);
+		item.vertexCount = uint32_t(drawing_.vertices.size()) - item.firstVertex;
+		drawing_.items.push_back(item);
 	}
 
 	void addItem(const TileDraw &tiles, const PipelineKey &backdrop, uint32_t firstEyeBlock)
@@ -120,12 +193,11 @@ private:
 			const LayerTexture &texture = textureOf(draw_.inputs.layers[size_t(tiles.layer)], draw_.eye);
 			item.image = texture.image;
 			item.arrayIndex = texture.arrayIndex;
+			item.pipeline.surface = surfaces_[size_t(tiles.layer)];
 			item.pipeline.layerEncoded = encoded_[size_t(tiles.layer)];
+			item.pipeline.keyed = draw_.inputs.layers[size_t(tiles.layer)].key.has_value();
 		}
-		item.firstVertex = uint32_t(drawing_.vertices.size());
-		for (const PixelRect &rect : tiles.rects) addRect(drawing_, rect);
-		item.vertexCount = uint32_t(drawing_.vertices.size()) - item.firstVertex;
-		drawing_.items.push_back(item);
+		addRects(item, tiles.rects);
 	}
 
 	Drawing &drawing_;
@@ -134,7 +206,10 @@ private:
 	std::array<std::array<EyeAtLine, 2>, bandCount + 1> eyes_;
 	FrameVector<FrameVector<Cover>> covers_; ///< by layer
 	FrameVector<uint32_t> blocks_;           ///< by layer: its first block
-	FrameVector<bool> encoded_;              ///< by layer: its texels are sRGB encoded
+	FrameVector<bool> encoded_;              ///< by layer: its texels are sRGB encoded, where it is plain
+	FrameVector<Surface> surfaces_;          ///< by layer: none where it is plain
+	FrameVector<bool> needsAlpha_;           ///< by layer: needsAlphaBelow()
+	bool gathers_ = false;                   ///< a layer needs it: all are drawn so that their alpha is known
 };
 
 } // namespace
@@ -150,14 +225,18 @@ Drawing makeDrawing(const PanelInputs &inputs, const PanelOptics &optics, const 
 	return drawing;
 }
 
-Drawing warmUpDrawing(std::span<const PipelineKey> pipelines, std::span<const uint64_t> images, const PixelRect &pixels)
+Drawing warmUpDrawing(std::span<const PipelineKey> pipelines, std::span<const uint64_t> images, std::span<const uint64_t> cubes,
+					  const PixelRect &pixels)
 {
-	Drawing drawing{.eyeBlocks = FrameVector<shaders::EyeBlock>(1), .layerBlocks = FrameVector<shaders::LayerBlock>(1)};
+	Drawing drawing{.eyeBlocks = FrameVector<shaders::EyeBlock>(1),
+					.layerBlocks = FrameVector<shaders::LayerBlock>(1),
+					.surfaceBlocks = FrameVector<shaders::SurfaceBlock>(1)};
 	addRect(drawing, pixels);
 	DrawItem item{.vertexCount = uint32_t(drawing.vertices.size())};
 	for (const PipelineKey &key : pipelines) {
 		item.pipeline = key;
-		for (const uint64_t image : key.layer == Cover::none ? images.first(1) : images) {
+		const std::span<const uint64_t> drawn = key.surface == Surface::cube ? cubes : images;
+		for (const uint64_t image : key.layer == Cover::none ? images.first(1) : drawn) {
 			item.image = image;
 			drawing.items.push_back(item);
 		}

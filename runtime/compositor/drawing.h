@@ -1,7 +1,7 @@
 // The whole drawing of one image as data: what is drawn where, with which pipeline and which numbers. Pure.
 #pragma once
-#include "runtime/compositor/blocks.h"
 #include "runtime/compositor/pipelines.h"
+#include "runtime/compositor/surface.h"
 
 namespace arift
 {
@@ -12,8 +12,9 @@ constexpr size_t maxDrawnLayers = 1024;
 struct DrawItem {
 	PipelineKey pipeline;
 	uint32_t eyeBlock = 0;   ///< index into Drawing::eyeBlocks
-	uint32_t layerBlock = 0; ///< index into Drawing::layerBlocks, where the pipeline has a layer
-	uint64_t image = 0;      ///< the layer's
+	uint32_t layerBlock = 0; ///< index into Drawing::layerBlocks, where the pipeline has a layer or a look of its own; of one with a
+							 ///< surface into Drawing::surfaceBlocks
+	uint64_t image = 0;      ///< the layer's, or a passthrough layer's map; 0: none
 	uint32_t arrayIndex = 0;
 	uint32_t firstVertex = 0, vertexCount = 0;
 };
@@ -23,6 +24,7 @@ struct Drawing {
 	FrameVector<std::array<int16_t, 2>> vertices; ///< triangles, pixels
 	FrameVector<shaders::EyeBlock> eyeBlocks;
 	FrameVector<shaders::LayerBlock> layerBlocks;
+	FrameVector<shaders::SurfaceBlock> surfaceBlocks;
 };
 
 /// An image that can be sampled.
@@ -36,6 +38,8 @@ Drawing makeDrawing(const PanelInputs &inputs, const PanelOptics &optics, const 
 					const std::array<TileGrid, 2> &grids, const FindImage &findImage);
 /// Draws a few pixels with every pipeline, those of layers with every image, so that nothing is left for a driver to do at a pipeline's
 /// first draw.
-Drawing warmUpDrawing(std::span<const PipelineKey> pipelines, std::span<const uint64_t> images, const PixelRect &pixels);
+/// `cubes`: images for pipelines of cubes.
+Drawing warmUpDrawing(std::span<const PipelineKey> pipelines, std::span<const uint64_t> images, std::span<const uint64_t> cubes,
+					  const PixelRect &pixels);
 
 } // namespace arift

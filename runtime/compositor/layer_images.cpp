@@ -18,9 +18,13 @@ vk::raii::DescriptorPool poolFor(const gpu::Device::Handles &gpu, uint32_t sets)
 	return {gpu.device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, sets, size}};
 }
 
-/// One array layer, its largest mip level alone: views are near their size on the panel.
+/// One array layer or one cube, its largest mip level alone: views are near their size on the panel. A cube's texels are decoded when they
+/// are sampled: its faces' edges are the sampler's.
 vk::raii::ImageView viewOf(const gpu::Device::Handles &gpu, VkImage image, const gpu::ImageSpec &spec, uint32_t layer)
 {
+	if (gpu::isCube(spec))
+		return {gpu.device,
+				{{}, image, vk::ImageViewType::eCube, vk::Format(spec.format), {}, {vk::ImageAspectFlagBits::eColor, 0, 1, 6 * layer, 6}}};
 	const auto format = vk::Format(gpu::storedFormat(VkFormat(spec.format)));
 	return {gpu.device, {{}, image, vk::ImageViewType::e2D, format, {}, {vk::ImageAspectFlagBits::eColor, 0, 1, layer, 1}}};
 }
@@ -35,7 +39,7 @@ std::vector<Occupancy> occupancyOf(const gpu::ImageSpec &spec, const gpu::ImageR
 {
 	std::vector<Occupancy> occupancy;
 	const size_t texel = gpu::bytesPerTexel(VkFormat(spec.format));
-	if (rows.first && texel > 0)
+	if (rows.first && texel > 0 && !gpu::isCube(spec))
 		for (uint32_t layer = 0; layer < spec.arrayLayers; ++layer)
 			occupancy.emplace_back(Occupancy::Texels{.first = rows.first + layer * rows.layerPitch,
 													 .rowPitch = rows.rowPitch,
@@ -56,11 +60,12 @@ LayerImages::LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layo
 void LayerImages::add(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows)
 {
 	if (gpu::isDepth(VkFormat(spec.format)) || spec.samples != 1) return;
-	Entry entry{image, spec, {}, poolFor(gpu_, spec.arrayLayers), {}, occupancyOf(spec, rows)};
-	const std::vector layouts(spec.arrayLayers, layout_);
+	const uint32_t count = gpu::isCube(spec) ? spec.arrayLayers / 6 : spec.arrayLayers;
+	Entry entry{image, spec, {}, poolFor(gpu_, count), {}, occupancyOf(spec, rows)};
+	const std::vector layouts(count, layout_);
 	vk::raii::DescriptorSets sets(gpu_.device, {*entry.pool, layouts});
 	entry.sets.assign(std::make_move_iterator(sets.begin()), std::make_move_iterator(sets.end()));
-	for (uint32_t layer = 0; layer < spec.arrayLayers; ++layer) {
+	for (uint32_t layer = 0; layer < count; ++layer) {
 		const auto &view = entry.views.emplace_back(viewOf(gpu_, image, spec, layer));
 		const vk::DescriptorImageInfo texture{sampler_, *view, Layout::eShaderReadOnlyOptimal};
 		gpu_.device.updateDescriptorSets(

@@ -10,7 +10,7 @@ namespace arift
 class LayerImages
 {
 public:
-	/// Every array layer of every image gets a descriptor set of `layout`.
+	/// Every array layer of every image, or every cube, gets a descriptor set of `layout`.
 	LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layout, vk::Sampler sampler);
 
 	/// `rows`: where a CPU finds the texels, if anywhere; they are looked at by find() alone.

@@ -46,12 +46,59 @@ struct QuadView {
 	XrExtent2Df size;    ///< metres
 	LayerTexture texture;
 };
+/// What a layer's image lies on. Flat: a plane, that of a projection view or a quad.
+enum class Surface : uint32_t { none, flat, cylinder, sphere, cube };
+/// Seen from inside. Angles are those to the right and up from -z; of a cylinder, whose axis is y, heights in radii stand for angles up.
+struct CurvedView {
+	Surface surface = Surface::cylinder;
+	XrPosef centreInFrame;
+	float radius = 0;                  ///< metres; 0: infinitely far away
+	XrVector2f uvAhead{}, uvPerUnit{}; ///< texture coordinates, 0..1 over the rectangle, straight ahead, and per radian or radius
+	LayerTexture texture;
+};
+/// Infinitely far away. A direction is looked up as graphics APIs look up cube maps, x to its right and y up.
+struct CubeView {
+	XrQuaternionf orientationInFrame;
+	LayerTexture texture; ///< arrayIndex counts cubes
+};
+/// XR_FB_composition_layer_alpha_blend: what a layer's colour and alpha, and those of what is below it, are multiplied by.
+struct BlendFactors {
+	XrBlendFactorFB sourceColor, keptColor, sourceAlpha, keptAlpha;
+};
+/// Which colour of an application's picture stands for the world behind it. Distances are between encoded values, in luma (a quarter of
+/// it) and chroma (Rec. 709).
+struct ChromaKey {
+	std::array<float, 3> colour{0, 1, 0}; ///< sRGB encoded
+	float tolerance = 0.15f;              ///< nearer than this: the world alone
+	float softness = 0.1f;                ///< from there on to the layer alone
+	bool operator==(const ChromaKey &) const = default;
+};
+struct KeyedOut {
+	ChromaKey key;
+	float opacity = 1; ///< of what stays
+};
+/// How a passthrough layer shows the cameras' image. XR_FB_passthrough: XrPassthroughStyleFB and what may be chained to it.
+struct PassthroughStyle {
+	float opacity = 1;
+	XrColor4f edge{0, 0, 0, 0};                         ///< linear, not multiplied by its alpha
+	float brightness = 0, contrast = 1, saturation = 1; ///< in CIELAB
+	std::optional<LayerTexture> map;                    ///< one row: sRGB encoded RGBA by luma
+
+	bool isChanged() const { return brightness != 0 || contrast != 1 || saturation != 1 || edge.a > 0 || map; }
+};
 struct PanelLayer {
 	bool headLocked = false; ///< its frame is the head at the line's time, else the origin
 	XrCompositionLayerFlags flags = 0;
-	/// Per eye: a projection view, a quad, or nothing.
+	XrColor4f colorScale{1, 1, 1, 1}, colorBias{0, 0, 0, 0}; ///< of straight colour, before blending
+	std::optional<BlendFactors> factors;                     ///< instead of those that the flags stand for
+	/// Per eye: one of these, or nothing.
 	std::array<std::optional<ProjectionView>, 2> projection;
 	std::array<std::optional<QuadView>, 2> quad;
+	std::array<std::optional<CurvedView>, 2> curved;
+	std::array<std::optional<CubeView>, 2> cube;
+	std::optional<KeyedOut> key;
+	/// Instead of all that: the cameras' image over what is below.
+	std::optional<PassthroughStyle> passthrough;
 };
 
 struct PanelInputs {

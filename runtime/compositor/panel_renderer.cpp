@@ -1,5 +1,6 @@
 #include "runtime/compositor/panel_renderer.h"
 #include "runtime/base/clock.h"
+#include "runtime/compositor/block_buffer.h"
 #include "runtime/compositor/camera_images.h"
 #include "runtime/compositor/drawing.h"
 #include "runtime/compositor/layer_images.h"
@@ -63,28 +64,6 @@ private:
 	}
 };
 
-/// Blocks of one kind in a uniform buffer, each at an offset the device allows.
-template <typename Block> class BlockBuffer
-{
-public:
-	BlockBuffer(const gpu::Device::Handles &gpu, size_t capacity)
-		: stride_(aligned(sizeof(Block), gpu.physical.getProperties().limits.minUniformBufferOffsetAlignment)),
-		  buffer_(gpu, stride_ * capacity, vk::BufferUsageFlagBits::eUniformBuffer)
-	{
-	}
-	void write(std::span<const Block> blocks)
-	{
-		for (size_t i = 0; i < blocks.size(); ++i) std::memcpy(buffer_.bytes.data() + i * stride_, &blocks[i], sizeof(Block));
-	}
-	uint32_t offset(uint32_t index) const { return uint32_t(index * stride_); }
-	vk::Buffer buffer() const { return *buffer_.buffer; }
-
-private:
-	static size_t aligned(size_t size, size_t alignment) { return (size + alignment - 1) / alignment * alignment; }
-	size_t stride_;
-	gpu::Buffer buffer_;
-};
-
 vk::raii::Sampler makeSampler(const gpu::Device::Handles &gpu, vk::Filter filter)
 {
 	using Address = vk::SamplerAddressMode;
@@ -115,10 +94,18 @@ constexpr uint64_t noImage = UINT64_MAX;
 /// Images that are drawn once, to warm up: whether sizes are powers of two is part of what a software renderer compiles.
 constexpr std::array<uint64_t, 2> warmUpImages{UINT64_MAX - 1, UINT64_MAX - 2};
 constexpr std::array<uint32_t, 2> warmUpSizes{3, 4};
+constexpr std::array<uint64_t, 1> warmUpCubes{UINT64_MAX - 3};
 
 gpu::ImageSpec smallImage(uint32_t size)
 {
 	return {.format = VK_FORMAT_R8G8B8A8_SRGB, .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT, .width = size, .height = size};
+}
+gpu::ImageSpec smallCube()
+{
+	gpu::ImageSpec spec = smallImage(4);
+	spec.createFlags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
+	spec.arrayLayers = 6;
+	return spec;
 }
 
 } // namespace
@@ -144,6 +131,7 @@ struct PanelRenderer::Implementation {
 	Canvas panel, eyes;
 	vk::raii::Sampler linear, nearest;
 	BlockBuffer<shaders::EyeBlock> eyeBlocks;
+	DynamicBlocks<shaders::SurfaceBlock> surfaceBlocks;
 	std::optional<gpu::Buffer> vertices;
 	CameraImages cameraImages;
 	std::array<Texture, 2> angleTables;
@@ -171,6 +159,7 @@ PanelRenderer::Implementation::Implementation(gpu::Device &device_, const Rig &r
 	  linear(makeSampler(gpu, vk::Filter::eLinear)),
 	  nearest(makeSampler(gpu, vk::Filter::eNearest)),
 	  eyeBlocks(gpu, eyeSetCount),
+	  surfaceBlocks(gpu, pipelines.surfaceSetLayout(), eyeSetCount * maxDrawnLayers),
 	  cameraImages(gpu, optics),
 	  angleTables{makeAngleTable(gpu, optics, 0), makeAngleTable(gpu, optics, 1)},
 	  noLayer(device, smallImage(1)),
@@ -215,7 +204,7 @@ FrameVector<const LayerImages::Entry *> PanelRenderer::Implementation::imagesOf(
 {
 	FrameVector<const LayerImages::Entry *> entries;
 	for (const DrawItem &item : drawing.items) {
-		if (item.pipeline.layer == Cover::none) continue;
+		if (item.image == 0) continue;
 		const LayerImages::Entry *entry = layerImages.find(item.image);
 		if (std::find(entries.begin(), entries.end(), entry) == entries.end()) entries.push_back(entry);
 	}
@@ -236,12 +225,17 @@ void PanelRenderer::Implementation::drawItems(const Drawing &drawing) const
 	constexpr shaders::LayerBlock unused{};
 	commands().bindVertexBuffers(0, *vertices->buffer, vk::DeviceSize(0));
 	for (const DrawItem &item : drawing.items) {
-		const LayerImages::Entry *layer = item.pipeline.layer != Cover::none ? layerImages.find(item.image) : none;
+		const LayerImages::Entry *layer = item.image != 0 ? layerImages.find(item.image) : none;
 		commands().bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines.at(item.pipeline));
 		commands().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0,
 									  {*eyeSets[item.eyeBlock], *layer->sets[item.arrayIndex]}, {});
-		const shaders::LayerBlock &block = item.pipeline.layer != Cover::none ? drawing.layerBlocks[item.layerBlock] : unused;
-		commands().pushConstants<shaders::LayerBlock>(pipelines.layout(), vk::ShaderStageFlagBits::eVertex, 0, block);
+		if (item.pipeline.surface != Surface::none) {
+			surfaceBlocks.bind(commands(), pipelines.layout(), 2, item.layerBlock);
+		} else {
+			const bool hasBlock = item.pipeline.layer != Cover::none || item.pipeline.look != Look::backdrop;
+			const shaders::LayerBlock &block = hasBlock ? drawing.layerBlocks[item.layerBlock] : unused;
+			commands().pushConstants<shaders::LayerBlock>(pipelines.layout(), vk::ShaderStageFlagBits::eVertex, 0, block);
+		}
 		commands().draw(item.vertexCount, 1, item.firstVertex, 0);
 	}
 }
@@ -249,6 +243,7 @@ void PanelRenderer::Implementation::drawItems(const Drawing &drawing) const
 void PanelRenderer::Implementation::record(Canvas &canvas, const PanelInputs &inputs, const Drawing &drawing)
 {
 	eyeBlocks.write(drawing.eyeBlocks);
+	surfaceBlocks.write(drawing.surfaceBlocks);
 	writeVertices(drawing);
 	const auto entries = imagesOf(drawing);
 	const vk::Extent2D extent = canvas.extent();
@@ -273,11 +268,14 @@ void PanelRenderer::Implementation::warmUp()
 		const gpu::SharedImage &image = images.emplace_back(device, smallImage(warmUpSizes[i]));
 		layerImages.add(warmUpImages[i], image.image(), image.spec(), {});
 	}
+	const gpu::SharedImage cube(device, smallCube());
+	layerImages.add(warmUpCubes[0], cube.image(), cube.spec(), {});
 	// Inside the lens circle, where every frame draws anew.
 	const glm::ivec2 axis(panel.geometry.eyes[0].axis);
-	record(panel, {}, warmUpDrawing(usualKeys(optics), warmUpImages, {axis.x, axis.y, axis.x + 4, axis.y + 4}));
+	record(panel, {}, warmUpDrawing(usualKeys(optics), warmUpImages, warmUpCubes, {axis.x, axis.y, axis.x + 4, axis.y + 4}));
 	gpu.submitAndWait(commands(), fence);
 	for (const uint64_t key : warmUpImages) layerImages.remove(key);
+	for (const uint64_t key : warmUpCubes) layerImages.remove(key);
 }
 
 void PanelRenderer::Implementation::draw(Canvas &canvas, const PanelInputs &inputs)

@@ -2,6 +2,9 @@
 #include "shaders/panel.frag.h"
 #include "shaders/panel.vert.h"
 #include "shaders/panel_blocks.h"
+#include "shaders/surface.frag.h"
+#include "shaders/surface.vert.h"
+#include "shaders/surface_cube.frag.h"
 #include <array>
 
 namespace arift
@@ -41,15 +44,14 @@ template <size_t count> vk::raii::DescriptorSetLayout makeSetLayout(const gpu::D
 {
 	std::array<vk::DescriptorSetLayoutBinding, count> bindings;
 	for (uint32_t i = 0; i < count; ++i) {
-		const bool block = types[i] == Type::eUniformBuffer;
+		const bool block = types[i] == Type::eUniformBuffer || types[i] == Type::eUniformBufferDynamic;
 		bindings[i] = {i, types[i], 1, block ? vk::ShaderStageFlagBits::eVertex : vk::ShaderStageFlagBits::eFragment};
 	}
 	return {gpu.device, {{}, bindings}};
 }
 
-vk::raii::PipelineLayout makeLayout(const gpu::Device::Handles &gpu, vk::DescriptorSetLayout eye, vk::DescriptorSetLayout layer)
+vk::raii::PipelineLayout makeLayout(const gpu::Device::Handles &gpu, const std::array<vk::DescriptorSetLayout, 3> &sets)
 {
-	const std::array sets{eye, layer};
 	const vk::PushConstantRange layerBlock{vk::ShaderStageFlagBits::eVertex, 0, sizeof(shaders::LayerBlock)};
 	return {gpu.device, {{}, sets, layerBlock}};
 }
@@ -68,6 +70,9 @@ struct Constants {
 	int32_t layer;
 	VkBool32 throughLens, redItself, layerEncoded;
 	PanelNumbers numbers;
+	int32_t look;
+	VkBool32 keyed;
+	int32_t surface; ///< surface.frag's alone
 };
 
 Constants constantsFor(const PanelOptics &optics, const ViewGeometry &geometry, const PipelineKey &key)
@@ -81,7 +86,10 @@ Constants constantsFor(const PanelOptics &optics, const ViewGeometry &geometry, 
 			key.throughLens,
 			optics.redItself,
 			key.layerEncoded,
-			numbersFor(optics, geometry, key.camera)};
+			numbersFor(optics, geometry, key.camera),
+			int32_t(key.look),
+			key.keyed,
+			int32_t(key.surface)};
 }
 
 /// Constants are words: the entry of every id.
@@ -97,9 +105,18 @@ vk::PipelineColorBlendAttachmentState blendState(Blend blend)
 	using Component = vk::ColorComponentFlagBits;
 	using Factor = vk::BlendFactor;
 	const auto all = Component::eR | Component::eG | Component::eB | Component::eA;
+	const auto state = [&](Factor colour, Factor keptColour, Factor alpha, Factor keptAlpha) {
+		return vk::PipelineColorBlendAttachmentState{true, colour, keptColour, vk::BlendOp::eAdd, alpha, keptAlpha, vk::BlendOp::eAdd, all};
+	};
+	switch (blend) {
+	case Blend::replace: break;
+	case Blend::clear: return state(Factor::eZero, Factor::eZero, Factor::eZero, Factor::eZero);
 	// Every colour has an alpha of its own: the second output of the shader.
-	const Factor kept = blend == Blend::over ? Factor::eOneMinusSrc1Color : Factor::eOne;
-	return {blend != Blend::replace, Factor::eOne, kept, vk::BlendOp::eAdd, Factor::eZero, Factor::eOne, vk::BlendOp::eAdd, all};
+	case Blend::over: return state(Factor::eOne, Factor::eOneMinusSrc1Color, Factor::eOne, Factor::eOneMinusSrc1Alpha);
+	case Blend::add: return state(Factor::eOne, Factor::eOne, Factor::eZero, Factor::eOne);
+	case Blend::under: return state(Factor::eOneMinusDstAlpha, Factor::eOne, Factor::eOne, Factor::eZero);
+	}
+	return {false, Factor::eOne, Factor::eZero, vk::BlendOp::eAdd, Factor::eOne, Factor::eZero, vk::BlendOp::eAdd, all};
 }
 
 struct Factory {
@@ -107,12 +124,24 @@ struct Factory {
 	const PanelOptics &optics;
 	vk::PipelineLayout layout;
 	vk::RenderPass renderPass;
-	vk::raii::ShaderModule vertex{gpu.device, vk::ShaderModuleCreateInfo{{}, sizeof(panelVertexShader), panelVertexShader}};
-	vk::raii::ShaderModule fragment{gpu.device, vk::ShaderModuleCreateInfo{{}, sizeof(panelFragmentShader), panelFragmentShader}};
+	vk::raii::ShaderModule vertex = module(panelVertexShader), fragment = module(panelFragmentShader);
+	vk::raii::ShaderModule surfaceVertex = module(surfaceVertexShader), surfaceFragment = module(surfaceFragmentShader);
+	vk::raii::ShaderModule cubeFragment = module(cubeFragmentShader);
 	vk::raii::PipelineCache cache{gpu.device, vk::PipelineCacheCreateInfo{}};
+
+	template <size_t words> vk::raii::ShaderModule module(const uint32_t (&code)[words]) const
+	{
+		return {gpu.device, vk::ShaderModuleCreateInfo{{}, sizeof code, code}};
+	}
+	vk::ShaderModule fragmentOf(Surface surface) const
+	{
+		if (surface == Surface::none) return *fragment;
+		return surface == Surface::cube ? *cubeFragment : *surfaceFragment;
+	}
 
 	vk::raii::Pipeline make(const PipelineKey &key) const
 	{
+		const vk::ShaderModule vertexModule = key.surface == Surface::none ? *vertex : *surfaceVertex;
 		const ViewGeometry geometry = key.throughLens ? panelGeometry(optics) : eyesGeometry(optics);
 		const VertexConstants size{2.0f / float(geometry.width), 2.0f / float(geometry.height), float(geometry.eyes[0].perPixel.x)};
 		const Constants constants = constantsFor(optics, geometry, key);
@@ -120,8 +149,9 @@ struct Factory {
 		const auto entries = entriesOf<Constants>();
 		const vk::SpecializationInfo bySize{uint32_t(sizeEntries.size()), sizeEntries.data(), sizeof size, &size};
 		const vk::SpecializationInfo byOptics{uint32_t(entries.size()), entries.data(), sizeof constants, &constants};
-		const std::array stages{vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eVertex, *vertex, "main", &bySize},
-								vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eFragment, *fragment, "main", &byOptics}};
+		const std::array stages{
+			vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eVertex, vertexModule, "main", &bySize},
+			vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eFragment, fragmentOf(key.surface), "main", &byOptics}};
 		const vk::VertexInputBindingDescription binding{0, 2 * sizeof(int16_t)};
 		const vk::VertexInputAttributeDescription attribute{0, 0, vk::Format::eR16G16Sint, 0};
 		const vk::PipelineVertexInputStateCreateInfo input{{}, binding, attribute};
@@ -162,6 +192,25 @@ void addLayers(std::vector<PipelineKey> &keys, PipelineKey key, std::initializer
 		}
 }
 
+/// Layers that are not plain are drawn over what is there, as is all else where alpha has to be known.
+void addSurfaces(std::vector<PipelineKey> &keys, bool throughLens)
+{
+	for (const Surface surface : {Surface::flat, Surface::cylinder, Surface::sphere, Surface::cube})
+		keys.push_back({.blend = Blend::over, .layer = Cover::partly, .throughLens = throughLens, .surface = surface});
+	keys.push_back({.blend = Blend::clear, .throughLens = throughLens});
+}
+
+/// The cameras' image as a layer: what they do not see is the same picture's fill.
+void addLooks(std::vector<PipelineKey> &keys, PipelineKey backdrop)
+{
+	if (backdrop.background == Background::unseen) return;
+	backdrop.blend = Blend::over;
+	for (const Look look : {Look::faded, Look::styled}) {
+		backdrop.look = look;
+		keys.push_back(backdrop);
+	}
+}
+
 /// Every combination TileDraw and the cameras' formats can ask for.
 std::vector<PipelineKey> everyKey(const PanelOptics &optics)
 {
@@ -169,12 +218,17 @@ std::vector<PipelineKey> everyKey(const PanelOptics &optics)
 	for (const bool throughLens : {true, false}) {
 		for (PipelineKey key : backdrops(optics, throughLens)) {
 			keys.push_back(key);
+			addLooks(keys, key);
 			if (throughLens) addLayers(keys, key, {Cover::fully});
-			key.blend = Blend::add;
-			keys.push_back(key);
+			for (const Blend blend : {Blend::add, Blend::under}) {
+				key.blend = blend;
+				keys.push_back(key);
+			}
 		}
 		keys.push_back({.throughLens = throughLens});
+		addSurfaces(keys, throughLens);
 		addLayers(keys, {.blend = Blend::over, .throughLens = throughLens}, {Cover::partly});
+		addLayers(keys, {.blend = Blend::over, .throughLens = throughLens, .keyed = true}, {Cover::partly});
 	}
 	addLayers(keys, {}, {Cover::fully, Cover::opaque});
 	addLayers(keys, {.blend = Blend::over}, {Cover::fully});
@@ -187,7 +241,8 @@ std::vector<PipelineKey> usualKeys(const PanelOptics &optics)
 {
 	std::vector<PipelineKey> keys = everyKey(optics);
 	std::erase_if(keys, [](const PipelineKey &key) {
-		const bool rareLayer = key.layer != Cover::none && (!key.layerEncoded || key.background == Background::pattern);
+		const bool rareLayer =
+			key.layer != Cover::none && key.surface == Surface::none && (!key.layerEncoded || key.background == Background::pattern);
 		return !key.throughLens || key.encoded || key.blend == Blend::add || rareLayer;
 	});
 	return keys;
@@ -197,7 +252,8 @@ Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const P
 	: renderPass_(makeRenderPass(gpu, format)),
 	  eyeSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBuffer, Type::eCombinedImageSampler, Type::eCombinedImageSampler})),
 	  layerSetLayout_(makeSetLayout(gpu, std::array{Type::eCombinedImageSampler})),
-	  layout_(makeLayout(gpu, *eyeSetLayout_, *layerSetLayout_))
+	  surfaceSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBufferDynamic})),
+	  layout_(makeLayout(gpu, {*eyeSetLayout_, *layerSetLayout_, *surfaceSetLayout_}))
 {
 	const Factory factory{gpu, optics, *layout_, *renderPass_};
 	for (const PipelineKey &key : everyKey(optics)) pipelines_.emplace(key, factory.make(key));

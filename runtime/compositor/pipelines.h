@@ -1,5 +1,6 @@
 // Every pipeline the renderer can need, made before the first frame.
 #pragma once
+#include "runtime/compositor/panel_inputs.h"
 #include "runtime/compositor/panel_optics.h"
 #include "runtime/gpu/handles.h"
 #include <compare>
@@ -11,6 +12,9 @@ namespace arift
 /// The shader's `background` constant.
 enum class Background : uint32_t { none, pattern, camera, unseen };
 
+/// How the cameras' image is drawn: as what lies behind layers, or as a passthrough layer over what is there.
+enum class Look : uint32_t { backdrop, faded, styled };
+
 struct PipelineKey {
 	Blend blend = Blend::replace;
 	Background background = Background::none;
@@ -19,6 +23,9 @@ struct PipelineKey {
 	Cover layer = Cover::none;
 	bool layerEncoded = false; ///< the layer's texels are sRGB encoded
 	bool throughLens = true;
+	Look look = Look::backdrop;
+	bool keyed = false;              ///< a colour of the layer stands for what is behind it
+	Surface surface = Surface::none; ///< what the layer lies on, where surface.frag draws it
 	auto operator<=>(const PipelineKey &) const = default;
 };
 
@@ -32,14 +39,16 @@ public:
 
 	vk::RenderPass renderPass() const { return *renderPass_; }
 	vk::PipelineLayout layout() const { return *layout_; }
-	/// Set 0: eye block, camera image, angle table. Set 1: layer image. Push constants: layer block.
+	/// Set 0: eye block, camera image, angle table. Set 1: layer image. Set 2: surface block, at a dynamic offset. Push constants: layer
+	/// block. surface.frag uses no push constants, panel.frag no set 2.
 	vk::DescriptorSetLayout eyeSetLayout() const { return *eyeSetLayout_; }
 	vk::DescriptorSetLayout layerSetLayout() const { return *layerSetLayout_; }
+	vk::DescriptorSetLayout surfaceSetLayout() const { return *surfaceSetLayout_; }
 	vk::Pipeline at(const PipelineKey &key) const { return *pipelines_.at(key); }
 
 private:
 	vk::raii::RenderPass renderPass_;
-	vk::raii::DescriptorSetLayout eyeSetLayout_, layerSetLayout_;
+	vk::raii::DescriptorSetLayout eyeSetLayout_, layerSetLayout_, surfaceSetLayout_;
 	vk::raii::PipelineLayout layout_;
 	std::map<PipelineKey, vk::raii::Pipeline> pipelines_;
 };

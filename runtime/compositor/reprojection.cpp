@@ -24,12 +24,6 @@ Placement combine(const Placement &bInC, const Placement &aInB)
 	return {bInC.orientation * aInB.orientation, bInC.orientation * aInB.position + bInC.position};
 }
 
-Placement layerInOrigin(const EyeAtLine &eye, bool headLocked, const XrPosef &inFrame)
-{
-	const Placement place = toPlacement(inFrame);
-	return headLocked ? combine(eye.head, place) : place;
-}
-
 /// (x, y, 1) -> the vector, in the frame of `target`, from it to the point on the passthrough plane, up to a positive factor:
 /// ray + offset (ray . ahead) / planeDistance with offset = view - target.
 glm::dmat3 toPlanePoint(const EyeAtLine &eye, const Placement &target)
@@ -42,6 +36,12 @@ glm::dmat3 toPlanePoint(const EyeAtLine &eye, const Placement &target)
 } // namespace
 
 Placement toPlacement(const XrPosef &pose) { return {glm::normalize(toGlm(pose.orientation)), toGlm(pose.position)}; }
+
+Placement layerInOrigin(const EyeAtLine &eye, bool headLocked, const XrPosef &inFrame)
+{
+	const Placement place = toPlacement(inFrame);
+	return headLocked ? combine(eye.head, place) : place;
+}
 
 std::array<EyeAtLine, 2> eyesAtLine(const PanelInputs &inputs, double fraction)
 {

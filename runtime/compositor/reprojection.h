@@ -26,6 +26,8 @@ struct EyeAtLine {
 /// Both eyes at `fraction` of the panel's height between the centres of its first and its last line.
 std::array<EyeAtLine, 2> eyesAtLine(const PanelInputs &inputs, double fraction);
 
+/// A place in a layer's frame.
+Placement layerInOrigin(const EyeAtLine &eye, bool headLocked, const XrPosef &inFrame);
 /// To the direction in a camera's frame (x right, y down, z forward; any length) in which the camera saw what lies on the passthrough
 /// plane.
 glm::dmat3 cameraMatrix(const EyeAtLine &eye, const XrPosef &cameraInOrigin);

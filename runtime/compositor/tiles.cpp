@@ -164,9 +164,11 @@ FrameVector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, 
 }
 
 FrameVector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const FrameVector<Cover>> layers,
-								const FrameVector<bool> &seen)
+								const FrameVector<bool> &seen, Base base, const FrameVector<bool> &needsAlpha)
 {
-	const bool environment = blendMode != XR_ENVIRONMENT_BLEND_MODE_OPAQUE, additive = blendMode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
+	const bool kept = base == Base::kept;
+	const bool environment = blendMode != XR_ENVIRONMENT_BLEND_MODE_OPAQUE && !kept;
+	const bool additive = blendMode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE && !kept;
 	Plan plan(grid);
 	FrameVector<int> here;
 	const auto addTile = [&](int column, int row) {
@@ -184,7 +186,8 @@ FrameVector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode ble
 			here.push_back(int(i));
 		}
 		// What a layer covers wholly is drawn with what is behind it in one pass; at its edges it is blended over it.
-		const bool together = !here.empty() && layers[size_t(here.front())][index] != Cover::partly;
+		const Cover lowest = here.empty() ? Cover::partly : layers[size_t(here.front())][index];
+		const bool together = kept ? lowest == Cover::opaque : lowest != Cover::partly;
 		// Light is added to the finished picture of the layers: with one layer in the same pass, with more after them.
 		const bool later = additive && here.size() > size_t(together);
 		const uint32_t band = grid.bandOf(row);
@@ -192,10 +195,17 @@ FrameVector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode ble
 		const auto addLayer = [&](Blend blend, Behind under, int layer) {
 			plan.add(blend, under, layer, layers[size_t(layer)][index], band, rect);
 		};
+		const auto needs = [&](int layer) { return !needsAlpha.empty() && needsAlpha[size_t(layer)]; };
+		if (environment && !additive && std::ranges::any_of(here, needs)) {
+			plan.add(Blend::clear, Behind::nothing, -1, Cover::none, band, rect);
+			for (const int layer : here) addLayer(Blend::over, Behind::nothing, layer);
+			plan.add(Blend::under, behind, -1, Cover::none, band, rect);
+			return;
+		}
 		const Behind under = backdrop && !later ? behind : Behind::nothing;
 		if (together)
 			addLayer(Blend::replace, under, here.front());
-		else
+		else if (!kept)
 			plan.add(Blend::replace, under, -1, Cover::none, band, rect);
 		for (size_t i = together ? 1 : 0; i < here.size(); ++i) addLayer(Blend::over, Behind::nothing, here[i]);
 		if (later) plan.add(Blend::add, behind, -1, Cover::none, band, rect);

@@ -62,7 +62,9 @@ using ContentOf = std::function<Content(glm::dvec2 least, glm::dvec2 most)>;
 /// error, for any colour; `border`: less than this inside the image's edges, uv, is not inside.
 FrameVector<Cover> coverage(const TileGrid &grid, const MatrixByBand &uvMatrix, glm::dvec2 border, const ContentOf &contentOf);
 
-enum class Blend : uint32_t { replace, over, add };
+/// Clear: to nothing, not even alpha. Under: behind what is there, as far as its alpha lets it through. In the order in which they are
+/// drawn.
+enum class Blend : uint32_t { replace, clear, over, add, under };
 /// What stands behind a tile's layers: the camera's image, or what is shown where it sees nothing.
 enum class Behind : uint8_t { nothing, unseen, camera };
 struct TileDraw {
@@ -73,9 +75,11 @@ struct TileDraw {
 	uint32_t band = 0;
 	FrameVector<PixelRect> rects; ///< do not overlap
 };
+/// Over: what is drawn already stays, and layers are drawn over it.
+enum class Base : uint8_t { replaced, kept };
 /// The draws of one eye in their order. `layers`: their coverage, bottom first; empty: this eye does not see it. `seen`: by tile, where the
 /// camera's image is asked for; empty: everywhere.
 FrameVector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode blendMode, std::span<const FrameVector<Cover>> layers,
-								const FrameVector<bool> &seen = {});
+								const FrameVector<bool> &seen = {}, Base base = Base::replaced, const FrameVector<bool> &needsAlpha = {});
 
 } // namespace arift

@@ -15,7 +15,7 @@ VkImageAspectFlags aspectOf(VkFormat format)
 
 bool canLieInRows(uint32_t deviceType, const ImageSpec &spec)
 {
-	return deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU && !isDepth(VkFormat(spec.format)) && spec.samples == 1;
+	return deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU && !isDepth(VkFormat(spec.format)) && !isCube(spec) && spec.samples == 1;
 }
 
 VkImageLayout boundaryLayout(VkFormat format)

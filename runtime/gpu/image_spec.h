@@ -36,6 +36,8 @@ constexpr VkExternalMemoryHandleTypeFlagBits sharedHandleType = VK_EXTERNAL_MEMO
 /// Layout".
 VkImageLayout boundaryLayout(VkFormat format);
 bool isDepth(VkFormat format);
+/// Six array layers are one.
+inline bool isCube(const ImageSpec &spec) { return spec.createFlags & VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT; }
 /// The same bits without sRGB encoding: the format in which the compositor samples an image. It decodes by itself, in the shader, what it
 /// then mixes: a software renderer would decode every channel of every texel.
 VkFormat storedFormat(VkFormat format);

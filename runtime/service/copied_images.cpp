@@ -10,7 +10,7 @@ namespace
 gpu::ImageSpec shownPart(const gpu::Device &device, gpu::ImageSpec spec)
 {
 	spec.usage = 0;
-	spec.createFlags = 0;
+	spec.createFlags &= VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
 	spec.mipLevels = 1;
 	spec.inRows = gpu::canLieInRows(device.identity().deviceType, spec) ? 1 : 0;
 	return spec;

@@ -20,17 +20,47 @@ XrFovf fovOf(const ipc::LayerView &view, bool rowsGoUp)
 }
 XrExtent2Df sizeOf(const ipc::Layer &layer, bool rowsGoUp) { return {layer.width, rowsGoUp ? -layer.height : layer.height}; }
 
+CurvedView curvedOf(const ipc::Layer &layer, bool rowsGoUp)
+{
+	const auto &[radius, ahead, perUnit] = layer.curved;
+	CurvedView view{.surface = layer.type == ipc::LayerType::cylinder ? Surface::cylinder : Surface::sphere,
+					.centreInFrame = layer.views[0].pose,
+					.radius = radius,
+					.uvAhead = ahead,
+					.uvPerUnit = perUnit,
+					.texture = textureOf(layer.views[0].image)};
+	if (rowsGoUp) {
+		view.uvAhead.y = 1 - ahead.y;
+		view.uvPerUnit.y = -perUnit.y;
+	}
+	return view;
+}
+
+void addView(PanelLayer &result, uint32_t eye, const ipc::Layer &layer, bool rowsGoUp)
+{
+	using enum ipc::LayerType;
+	const ipc::LayerView &view = layer.views[layer.type == projection ? eye : 0];
+	switch (layer.type) {
+	case projection: result.projection[eye] = ProjectionView{view.pose, fovOf(view, rowsGoUp), textureOf(view.image)}; return;
+	case quad: result.quad[eye] = QuadView{view.pose, sizeOf(layer, rowsGoUp), textureOf(view.image)}; return;
+	case cylinder:
+	case equirect: result.curved[eye] = curvedOf(layer, rowsGoUp); return;
+	// Every graphics API looks up a face's first row alike.
+	case cube: result.cube[eye] = CubeView{view.pose.orientation, textureOf(view.image)}; return;
+	}
+}
+
 PanelLayer layerOf(const ipc::Layer &layer, bool rowsGoUp)
 {
-	PanelLayer result{.headLocked = layer.frame == ipc::LayerFrame::head, .flags = layer.flags};
-	for (uint32_t eye = 0; eye < 2; ++eye) {
-		if (!(layer.eyes >> eye & 1)) continue;
-		const ipc::LayerView &view = layer.views[layer.type == ipc::LayerType::quad ? 0 : eye];
-		if (layer.type == ipc::LayerType::quad)
-			result.quad[eye] = QuadView{view.pose, sizeOf(layer, rowsGoUp), textureOf(view.image)};
-		else if (layer.type == ipc::LayerType::projection)
-			result.projection[eye] = ProjectionView{view.pose, fovOf(view, rowsGoUp), textureOf(view.image)};
-	}
+	PanelLayer result{.headLocked = layer.frame == ipc::LayerFrame::head,
+					  .flags = layer.flags,
+					  .colorScale = layer.colorScale,
+					  .colorBias = layer.colorBias};
+	if (const ipc::BlendFactors &blend = layer.blend; blend.given)
+		result.factors = {XrBlendFactorFB(blend.sourceColor), XrBlendFactorFB(blend.destinationColor), XrBlendFactorFB(blend.sourceAlpha),
+						  XrBlendFactorFB(blend.destinationAlpha)};
+	for (uint32_t eye = 0; eye < 2; ++eye)
+		if (layer.eyes >> eye & 1) addView(result, eye, layer, rowsGoUp);
 	return result;
 }
 

@@ -13,10 +13,12 @@ using Access = vk::AccessFlagBits;
 using Layout = vk::ImageLayout;
 using Stage = vk::PipelineStageFlagBits;
 
-gpu::ImageSpec specOf(const gpu::Device &device, uint32_t width, uint32_t height, VkFormat format, uint32_t arrayLayers)
+gpu::ImageSpec specOf(const gpu::Device &device, uint32_t width, uint32_t height, VkFormat format, uint32_t arrayLayers,
+					  VkImageCreateFlags flags)
 {
 	gpu::ImageSpec spec{.format = format,
 						.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+						.createFlags = flags,
 						.width = width,
 						.height = height,
 						.arrayLayers = arrayLayers};
@@ -86,8 +88,9 @@ PanelInputs inputsAtRest(const Rig &rig)
 	return inputs;
 }
 
-LayerImage::LayerImage(gpu::Device &device, uint32_t width, uint32_t height, const Texel &texel, VkFormat format, uint32_t arrayLayers)
-	: shared_(device, specOf(device, width, height, format, arrayLayers))
+LayerImage::LayerImage(gpu::Device &device, uint32_t width, uint32_t height, const Texel &texel, VkFormat format, uint32_t arrayLayers,
+					   VkImageCreateFlags flags)
+	: shared_(device, specOf(device, width, height, format, arrayLayers, flags))
 {
 	std::vector<uint8_t> bytes;
 	for (uint32_t layer = 0; layer < arrayLayers; ++layer)
@@ -121,7 +124,18 @@ void PanelTest::seeGrey(uint8_t value)
 
 uint64_t PanelTest::addImage(uint32_t width, uint32_t height, const LayerImage::Texel &texel, VkFormat format, uint32_t arrayLayers)
 {
-	images.push_back(std::make_unique<LayerImage>(device, width, height, texel, format, arrayLayers));
+	return add(std::make_unique<LayerImage>(device, width, height, texel, format, arrayLayers));
+}
+
+uint64_t PanelTest::addCube(uint32_t size, const LayerImage::Texel &texel, uint32_t count)
+{
+	return add(
+		std::make_unique<LayerImage>(device, size, size, texel, VK_FORMAT_R8G8B8A8_UNORM, 6 * count, VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT));
+}
+
+uint64_t PanelTest::add(std::unique_ptr<LayerImage> image)
+{
+	images.push_back(std::move(image));
 	const uint64_t key = images.size();
 	renderer.addImage(key, images.back()->image(), images.back()->spec(), images.back()->rows());
 	return key;

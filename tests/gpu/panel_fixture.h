@@ -28,7 +28,7 @@ class LayerImage
 public:
 	using Texel = std::function<std::array<uint8_t, 4>(uint32_t, uint32_t, uint32_t)>;
 	LayerImage(gpu::Device &device, uint32_t width, uint32_t height, const Texel &texel, VkFormat format = VK_FORMAT_R8G8B8A8_UNORM,
-			   uint32_t arrayLayers = 1);
+			   uint32_t arrayLayers = 1, VkImageCreateFlags flags = 0);
 	VkImage image() const { return shared_.image(); }
 	gpu::ImageRows rows() const { return shared_.rows(); }
 	const gpu::ImageSpec &spec() const { return shared_.spec(); }
@@ -54,11 +54,15 @@ protected:
 	uint64_t addImage(uint32_t width, uint32_t height, const LayerImage::Texel &texel, VkFormat format = VK_FORMAT_R8G8B8A8_UNORM,
 					  uint32_t arrayLayers = 1);
 
+	/// `count` cube maps in one image: six array layers of `texel` each.
+	uint64_t addCube(uint32_t size, const LayerImage::Texel &texel, uint32_t count);
+
 	void render();
 	/// RGB bytes at a panel pixel of the last render().
 	std::array<int, 3> at(int x, int y) const;
 	/// The panel pixel in which an eye sees a point of the origin frame, in green.
 	glm::dvec2 pixelOf(Eye eye, XrVector3f point) const;
+	uint64_t add(std::unique_ptr<LayerImage> image);
 	void expectNear(std::array<int, 3> found, const Linear &expected, double tolerance = 1.01) const;
 
 	gpu::Device device;

@@ -9,13 +9,17 @@ namespace arift::reference
 namespace
 {
 
-gpu::ImageSpec rgba16(uint32_t width, uint32_t height)
+gpu::ImageSpec rgba16(uint32_t width, uint32_t height, bool cube)
 {
 	gpu::ImageSpec spec;
 	spec.format = VK_FORMAT_R16G16B16A16_UNORM;
 	spec.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
 	spec.width = width;
 	spec.height = height;
+	if (cube) {
+		spec.createFlags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
+		spec.arrayLayers = 6;
+	}
 	return spec;
 }
 
@@ -45,8 +49,8 @@ CameraFrame coordinateFrame(const FrameAllocator &allocate, Content content, uin
 	return frame;
 }
 
-CoordinateTexture::CoordinateTexture(gpu::Device &device, Content content, uint32_t width, uint32_t height)
-	: image_(device, rgba16(width, height))
+CoordinateTexture::CoordinateTexture(gpu::Device &device, Content content, uint32_t width, uint32_t height, bool cube)
+	: image_(device, rgba16(width, height, cube))
 {
 	gpu::Device::Handles &gpu = device.handles();
 	const std::vector<uint16_t> values = coordinateValues(content, width, height);
@@ -61,13 +65,16 @@ CoordinateTexture::CoordinateTexture(gpu::Device &device, Content content, uint3
 		using Stage = vk::PipelineStageFlagBits;
 		using Layout = vk::ImageLayout;
 		const Layout boundary = Layout(gpu::boundaryLayout(VK_FORMAT_R16G16B16A16_UNORM));
-		const vk::ImageSubresourceRange all{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
+		const uint32_t layers = image_.spec().arrayLayers;
+		const vk::ImageSubresourceRange all{vk::ImageAspectFlagBits::eColor, 0, 1, 0, layers};
 		const vk::ImageMemoryBarrier take{
 			{}, Access::eTransferWrite, boundary, Layout::eTransferDstOptimal, VK_QUEUE_FAMILY_EXTERNAL, gpu.queueFamily, image_.image(),
 			all};
 		commands.pipelineBarrier(Stage::eTopOfPipe, Stage::eTransfer, {}, {}, {}, take);
-		const vk::BufferImageCopy whole{0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, {width, height, 1}};
-		commands.copyBufferToImage(*staging.buffer, image_.image(), Layout::eTransferDstOptimal, whole);
+		for (uint32_t layer = 0; layer < layers; ++layer) {
+			const vk::BufferImageCopy whole{0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, layer, 1}, {}, {width, height, 1}};
+			commands.copyBufferToImage(*staging.buffer, image_.image(), Layout::eTransferDstOptimal, whole);
+		}
 		const vk::ImageMemoryBarrier give{
 			Access::eTransferWrite, {}, Layout::eTransferDstOptimal, boundary, gpu.queueFamily, VK_QUEUE_FAMILY_EXTERNAL,
 			image_.image(),         all};

@@ -20,11 +20,11 @@ std::vector<uint16_t> coordinateValues(Content content, uint32_t width, uint32_t
 /// A camera image (grey16) in memory of `allocate`.
 CameraFrame coordinateFrame(const FrameAllocator &allocate, Content content, uint32_t width, uint32_t height);
 
-/// An application's image (RGBA16, all colours alike, alpha 1) in the state in which an application hands it over.
+/// An application's image (RGBA16, all colours alike, alpha 1) in the state in which an application hands it over; of a cube, all faces.
 class CoordinateTexture
 {
 public:
-	CoordinateTexture(gpu::Device &device, Content content, uint32_t width, uint32_t height);
+	CoordinateTexture(gpu::Device &device, Content content, uint32_t width, uint32_t height, bool cube = false);
 	const gpu::SharedImage &shared() const { return image_; }
 
 private:

@@ -238,10 +238,10 @@ TEST_P(PanelAccuracy, AngularGainIsOne)
 class Textures
 {
 public:
-	Textures(Bench &bench, uint32_t width, uint32_t height) : bench_(bench)
+	Textures(Bench &bench, uint32_t width, uint32_t height, bool cube = false) : bench_(bench)
 	{
 		for (const Content content : contents) {
-			textures_[size_t(content)] = std::make_unique<CoordinateTexture>(bench.device(), content, width, height);
+			textures_[size_t(content)] = std::make_unique<CoordinateTexture>(bench.device(), content, width, height, cube);
 			const gpu::SharedImage &shared = textures_[size_t(content)]->shared();
 			bench.renderer().addImage(firstKey + uint64_t(content), shared.image(), shared.spec());
 		}
@@ -313,6 +313,78 @@ TEST_P(PanelAccuracy, ObliqueQuad)
 				judge(describe(headLocked ? "quad, head" : "quad, world", rate, offset, 2),
 					  bench().compare(readings, mapping, width, height, 2), 0.05);
 			}
+}
+
+struct CurvedCase {
+	const char *what;
+	double radius;
+	Placement fromHead; ///< its centre, of the head at the middle line
+	double across, aspect, upper, lower;
+};
+
+CurvedView curvedView(const CurvedCase &one, const Placement &centre, const LayerTexture &texture)
+{
+	CurvedView view{.surface = one.aspect > 0 ? Surface::cylinder : Surface::sphere,
+					.centreInFrame = toPose(centre),
+					.radius = float(one.radius),
+					.texture = texture};
+	const double high = one.upper - one.lower;
+	view.uvAhead = {0.5f, one.aspect > 0 ? 0.5f : float(one.upper / high)};
+	view.uvPerUnit = {float(1 / one.across), float(one.aspect > 0 ? -one.aspect / one.across : -1 / high)};
+	return view;
+}
+
+TEST_P(PanelAccuracy, CurvedLayers)
+{
+	constexpr int width = 800, height = 500;
+	Textures textures(bench(), width, height);
+	const Placement off = placed({0.3, 1, 0.2}, 15 * degree, {0.1, 0.05, 0.2});
+	const CurvedCase cases[] = {
+		{"cylinder", 1.1, off, 100 * degree, 1.4, 0, 0},
+		{"endless cylinder", 0, off, 100 * degree, 1.2, 0, 0},
+		{"cylinder from outside", 0.4, placed({0, 1, 0}, 0, {0, 0, -1.2}), 150 * degree, 1.3, 0, 0},
+		{"sphere", 1.4, off, 110 * degree, 0, 40 * degree, -50 * degree},
+		{"endless sphere, whole", 0, placed({1, 0.2, 0}, 30 * degree, {0, 0, 0}), 360 * degree, 0, 90 * degree, -90 * degree},
+	};
+	for (const CurvedCase &one : cases)
+		for (const bool headLocked : {false, true}) {
+			const Situation now = bench().situation(200, 1, 2);
+			const Placement centre = headLocked ? one.fromHead : now.motion.head(0).holding(one.fromHead);
+			const CurvedPicture picture{centre, one.radius, one.across, one.aspect, one.upper, one.lower, width, height};
+			const PanelReadings readings = bench().render(width, height, [&](Content content) {
+				PanelInputs all = bench().inputs(now);
+				PanelLayer &layer = all.layers.emplace_back();
+				layer.headLocked = headLocked;
+				for (auto &view : layer.curved) view = curvedView(one, centre, textures.texture(content));
+				return all;
+			});
+			const Mapping mapping = [&](int eye, int channel, const Vector2d &pixel) {
+				return bench().reference().curvedTexel(now, picture, headLocked, eye, channel, pixel);
+			};
+			judge(describe((one.what + std::string(headLocked ? ", head" : ", world")).c_str(), 200, 1, 2),
+				  bench().compare(readings, mapping, width, height, 4), 0.05);
+		}
+}
+
+TEST_P(PanelAccuracy, CubeLayer)
+{
+	constexpr int size = 512;
+	Textures textures(bench(), size, size, true);
+	for (const double yaw : {0.0, 100.0, 200.0, 290.0}) {
+		const Situation now = bench().situation(200, 1, 2);
+		const CubePicture cube{Eigen::Quaterniond(Eigen::AngleAxisd(yaw * degree, Vector3d(0.5, 1, 0.3).normalized())), size};
+		const PanelReadings readings = bench().render(size, size, [&](Content content) {
+			PanelInputs all = bench().inputs(now);
+			for (auto &view : all.layers.emplace_back().cube)
+				view = CubeView{toPose({cube.turnInFrame, {0, 0, 0}}).orientation, textures.texture(content)};
+			return all;
+		});
+		const Mapping mapping = [&](int eye, int channel, const Vector2d &pixel) -> std::optional<Vector2d> {
+			return bench().reference().cubeTexel(now, cube, false, eye, channel, pixel).texel;
+		};
+		judge(describe(("cube turned by " + std::to_string(int(yaw))).c_str(), 200, 1, 2),
+			  bench().compare(readings, mapping, size, size, 24), 0.05);
+	}
 }
 
 INSTANTIATE_TEST_SUITE_P(Lenses, PanelAccuracy, testing::Values(LensChoice{"spline", true}, LensChoice{"polynomial", false}),

@@ -79,4 +79,52 @@ std::optional<Eigen::Vector2d> PanelReference::quadTexel(const Situation &now, c
 	return Eigen::Vector2d(u * picture.width - 0.5, v * picture.height - 0.5);
 }
 
+PanelReference::Ray PanelReference::rayOf(const Situation &now, bool headLocked, int eye, int channel, const Eigen::Vector2d &pixel) const
+{
+	const double time = Situation::timeAt(pixel.y());
+	const Placement view = now.view(eye, time), head = headLocked ? now.motion.head(time) : Placement{};
+	const Eigen::Vector2d t = lens_.tangents(eye, channel, pixel);
+	return {head.in(view.place), head.turn.conjugate() * (view.turn * Eigen::Vector3d(t.x(), t.y(), -1).normalized())};
+}
+
+std::optional<Eigen::Vector2d> PanelReference::curvedTexel(const Situation &now, const CurvedPicture &picture, bool headLocked, int eye,
+														   int channel, const Eigen::Vector2d &pixel) const
+{
+	const Ray ray = rayOf(now, headLocked, eye, channel, pixel);
+	const bool sphere = picture.aspect == 0, endless = picture.radius == 0;
+	const double radius = endless ? 1 : picture.radius;
+	const Eigen::Vector3d from = endless ? Eigen::Vector3d(0, 0, 0) : picture.centreInFrame.in(ray.from);
+	const Eigen::Vector3d direction = picture.centreInFrame.turn.conjugate() * ray.direction;
+	// Along the part of the ray across a cylinder's axis: from the place nearest to it, half a chord further.
+	Eigen::Vector3d across = direction, start = from;
+	if (!sphere) across.y() = start.y() = 0;
+	const double speed = across.norm(), nearest = -start.dot(across) / (speed * speed);
+	const double offAxis = (start + nearest * across).norm();
+	if (offAxis > radius) return std::nullopt;
+	const double along = nearest + std::sqrt(radius * radius - offAxis * offAxis) / speed;
+	if (along <= 0) return std::nullopt;
+	const Eigen::Vector3d hit = from + along * direction;
+	const double u = 0.5 + std::atan2(hit.x(), -hit.z()) / picture.across;
+	const double v = sphere ? (picture.upper - std::asin(hit.y() / radius)) / (picture.upper - picture.lower)
+							: 0.5 - hit.y() / (radius * picture.across / picture.aspect);
+	if (u < 0 || u > 1 || v < 0 || v > 1) return std::nullopt;
+	return Eigen::Vector2d(u * picture.width - 0.5, v * picture.height - 0.5);
+}
+
+CubeTexel PanelReference::cubeTexel(const Situation &now, const CubePicture &picture, bool headLocked, int eye, int channel,
+									const Eigen::Vector2d &pixel) const
+{
+	const Eigen::Vector3d r = picture.turnInFrame.conjugate() * rayOf(now, headLocked, eye, channel, pixel).direction;
+	int axis = 0;
+	r.cwiseAbs().maxCoeff(&axis);
+	const bool positive = r[axis] > 0;
+	double s = 0, t = -r.y();
+	if (axis == 0) s = positive ? -r.z() : r.z();
+	if (axis == 1) s = r.x(), t = positive ? r.z() : -r.z();
+	if (axis == 2) s = positive ? r.x() : -r.x();
+	const double most = std::abs(r[axis]);
+	return {2 * axis + (positive ? 0 : 1),
+			Eigen::Vector2d((s / most + 1) / 2 * picture.size - 0.5, (t / most + 1) / 2 * picture.size - 0.5)};
+}
+
 } // namespace arift::reference

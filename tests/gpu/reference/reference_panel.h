@@ -46,6 +46,26 @@ struct QuadPicture {
 	int width, height;
 };
 
+/// Seen from inside; the centre of a cylinder's picture and the middle of a sphere's equator lie ahead of their centre, on its -z.
+struct CurvedPicture {
+	Placement centreInFrame;
+	double radius;       ///< metres; 0: infinitely far away
+	double across;       ///< radians from the left edge to the right one
+	double aspect;       ///< cylinder: width along the arc / height; 0: a sphere
+	double upper, lower; ///< sphere: elevation of the upper and of the lower edge
+	int width, height;
+};
+/// A cube map infinitely far away.
+struct CubePicture {
+	Eigen::Quaterniond turnInFrame;
+	int size; ///< texels of a face in each direction
+};
+/// Where a direction meets a cube map: Vulkan 1.3, "Cube Map Face Selection" and "Cube Map Coordinate Transformation".
+struct CubeTexel {
+	int face; ///< +x, -x, +y, -y, +z, -z
+	Eigen::Vector2d texel;
+};
+
 /// All answers are (column, row) with integers at texel centres; nothing where the picture is not met.
 class PanelReference
 {
@@ -58,8 +78,18 @@ public:
 												   int channel, const Eigen::Vector2d &pixel) const;
 	std::optional<Eigen::Vector2d> quadTexel(const Situation &now, const QuadPicture &picture, bool headLocked, int eye, int channel,
 											 const Eigen::Vector2d &pixel) const;
+	std::optional<Eigen::Vector2d> curvedTexel(const Situation &now, const CurvedPicture &picture, bool headLocked, int eye, int channel,
+											   const Eigen::Vector2d &pixel) const;
+	CubeTexel cubeTexel(const Situation &now, const CubePicture &picture, bool headLocked, int eye, int channel,
+						const Eigen::Vector2d &pixel) const;
 
 private:
+	/// A ray of a panel pixel in the frame of the origin or, where it is head-locked, of the head.
+	struct Ray {
+		Eigen::Vector3d from, direction;
+	};
+	Ray rayOf(const Situation &now, bool headLocked, int eye, int channel, const Eigen::Vector2d &pixel) const;
+
 	Lens lens_;
 	std::array<Camera, 2> cameras_;
 };

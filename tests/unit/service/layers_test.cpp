@@ -20,6 +20,8 @@ ipc::Submission submissionOf(ipc::LayerType type, uint32_t rowsGoUp)
 	return submission;
 }
 
+std::vector<PanelLayer> layersOf(const ipc::Submission &submission) { return contentOf(submission, 1)->layers; }
+
 TEST(Layers, AViewWhoseRowsGoUpIsTurnedOver)
 {
 	const auto down = contentOf(submissionOf(ipc::LayerType::projection, 0), 1),
@@ -41,6 +43,52 @@ TEST(Layers, AQuadWhoseRowsGoUpIsTurnedOver)
 	EXPECT_EQ(down->layers[0].quad[0]->size.height, 0.5f);
 	EXPECT_EQ(up->layers[0].quad[0]->size.height, -0.5f);
 	EXPECT_EQ(up->layers[0].quad[0]->size.width, 2.0f);
+}
+
+TEST(Layers, ACurvedLayerWhoseRowsGoUpIsTurnedOver)
+{
+	for (const auto type : {ipc::LayerType::cylinder, ipc::LayerType::equirect}) {
+		ipc::Submission submission = submissionOf(type, 0);
+		submission.layers[0].curved = {1.5f, {0.5f, 0.25f}, {2, -3}};
+		const CurvedView down = *layersOf(submission)[0].curved[1];
+		submission.rowsGoUp = 1;
+		const CurvedView up = *layersOf(submission)[0].curved[0];
+		EXPECT_EQ(down.surface, type == ipc::LayerType::cylinder ? Surface::cylinder : Surface::sphere);
+		EXPECT_EQ(down.radius, 1.5f);
+		EXPECT_EQ(down.uvAhead.y, 0.25f);
+		EXPECT_EQ(down.uvPerUnit.y, -3);
+		EXPECT_EQ(up.uvAhead.y, 0.75f) << "the image's first row is the layer's lowest";
+		EXPECT_EQ(up.uvPerUnit.y, 3);
+		EXPECT_EQ(up.uvPerUnit.x, 2);
+	}
+}
+
+TEST(Layers, ACubeIsTheSameForEveryGraphicsApi)
+{
+	ipc::Submission submission = submissionOf(ipc::LayerType::cube, 1);
+	submission.layers[0].eyes = 2;
+	submission.layers[0].views[0].pose.orientation = {0, 1, 0, 0};
+	submission.layers[0].views[0].image.arrayIndex = 3;
+	const auto layers = layersOf(submission);
+	EXPECT_FALSE(layers[0].cube[0]);
+	EXPECT_EQ(layers[0].cube[1]->orientationInFrame.y, 1);
+	EXPECT_EQ(layers[0].cube[1]->texture.arrayIndex, 3u);
+}
+
+TEST(Layers, ScaleBiasAndFactorsAreTheLayers)
+{
+	ipc::Submission submission = submissionOf(ipc::LayerType::quad, 0);
+	submission.layers[0].colorScale.g = 0.5f;
+	submission.layers[0].colorBias.a = 0.25f;
+	EXPECT_FALSE(layersOf(submission)[0].factors);
+	submission.layers[0].blend = {1, 2, 3, 1, 0};
+	const auto layers = layersOf(submission);
+	EXPECT_EQ(layers[0].colorScale.g, 0.5f);
+	EXPECT_EQ(layers[0].colorBias.a, 0.25f);
+	EXPECT_EQ(layers[0].factors->sourceColor, XR_BLEND_FACTOR_SRC_ALPHA_FB);
+	EXPECT_EQ(layers[0].factors->keptColor, XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB);
+	EXPECT_EQ(layers[0].factors->sourceAlpha, XR_BLEND_FACTOR_ONE_FB);
+	EXPECT_EQ(layers[0].factors->keptAlpha, XR_BLEND_FACTOR_ZERO_FB);
 }
 
 } // namespace

@@ -1,0 +1,34 @@
+// Layers that panel.frag does not draw: on cylinders, spheres and cubes, and those with a colour scale, a bias or blend factors of their
+// own. Pure functions in double precision; surface.frag is their other half.
+#pragma once
+#include "runtime/compositor/blocks.h"
+#include "runtime/gpu/image_spec.h"
+#include "shaders/surface_block.h"
+
+namespace arift
+{
+
+/// SurfaceBlock's ray and origin at the top of every band and at the bottom of the last; of a flat layer uv instead of texels.
+struct RaysByBand {
+	MatrixByBand matrix;
+	std::array<glm::dvec3, bandCount + 1> origin{};
+};
+
+/// What this eye sees the layer on; none where it does not see it.
+Surface surfaceOf(const PanelLayer &layer, size_t eye);
+/// Whether panel.frag can draw it.
+bool isPlain(const PanelLayer &layer);
+/// Whether it may be seen where its image is transparent black.
+bool isShownWhereEmpty(const PanelLayer &layer);
+/// Whether what becomes of what is behind the layers follows from nothing but their alpha together: else each layer can be drawn over the
+/// cameras' image straight away.
+bool needsAlphaBelow(const PanelLayer &layer);
+
+/// Nothing where this eye does not see the layer.
+std::optional<RaysByBand> surfaceRays(const PanelLayer &layer, size_t eye, const std::array<std::array<EyeAtLine, 2>, bandCount + 1> &eyes);
+/// By tile, row by row: where such a layer may be seen and has content: `partly`, never `none` in error.
+FrameVector<Cover> surfaceCoverage(const TileGrid &grid, const PanelLayer &layer, size_t eye, const RaysByBand &rays,
+								   const ContentOf &contentOf);
+shaders::SurfaceBlock surfaceBlock(const PanelLayer &layer, size_t eye, uint32_t band, const RaysByBand &rays, const gpu::ImageSpec &spec);
+
+} // namespace arift

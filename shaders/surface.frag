@@ -1,0 +1,117 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// One pixel of a layer that is not plain: on a cylinder, a sphere or a cube, or with scaled colour or blend factors of its own. Over what is
+// there, in linear light; every colour at its own place, and with its own alpha.
+#include "panel_lens.glsl"
+
+layout(constant_id = 69) const int surface = 1;              // Surface (compositor/panel_inputs.h)
+const int surfaceFlat = 1, surfaceCylinder = 2, surfaceSphere = 3;
+
+#ifdef ARIFT_CUBE
+layout(set = 1, binding = 0) uniform samplerCube layerTexture; // light: its format decodes
+#else
+layout(set = 1, binding = 0) uniform sampler2D layerTexture;   // values as they are stored: nothing is decoded
+#endif
+
+layout(location = 0) noperspective in vec2 lensVector;       // tangents before the lens correction
+layout(location = 1) noperspective in mat3 rayMatrix;        // SurfaceBlock, at this line
+layout(location = 4) noperspective in vec3 origin;
+layout(location = 5) flat in vec4 placing;
+layout(location = 6) flat in vec4 bounds;
+layout(location = 7) flat in vec4 colorScale;
+layout(location = 8) flat in vec4 colorBias;
+layout(location = 9) flat in vec4 source;
+layout(location = 10) flat in vec4 kept;
+layout(location = 11) flat in vec4 texels;
+layout(location = 12) flat in vec2 size;
+
+layout(location = 0, index = 0) out vec4 light;
+layout(location = 0, index = 1) out vec4 cover;              // how much of what is there it takes away
+
+const float turn = 6.28318530718;
+
+#ifdef ARIFT_CUBE
+/// Colours and their alphas.
+void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there)
+{
+	const vec3 across = rayMatrix[0] * seen.tangents.x + rayMatrix[1] * seen.tangents.y;
+	const float factors[3] = float[](seen.chromatic.red, 1.0, seen.chromatic.blue);
+	for (int channel = 0; channel < 3; ++channel) {
+		const vec4 rgba = textureLod(layerTexture, rayMatrix[2] + across * factors[channel], 0.0);
+		colour[channel] = rgba[channel];
+		alpha[channel] = rgba.a;
+	}
+	there = vec3(1.0);
+}
+#else
+/// Where a ray meets the surface, from inside: flat: texel; else angle to the right, and angle up or height in radii. z > 0: it does.
+vec3 met(vec3 ray)
+{
+	if (surface == surfaceFlat) return vec3(ray.xy * (1.0 / ray.z), ray.z);
+	// (origin + along ray) has the length 1, the farther of both times; for a cylinder, without its y.
+	const vec3 flattened = surface == surfaceCylinder ? vec3(1.0, 0.0, 1.0) : vec3(1.0);
+	const vec3 r = ray * flattened, o = origin * flattened;
+	const float a = max(dot(r, r), 1e-12), b = dot(o, r), square = b * b - a * (dot(o, o) - 1.0);
+	const float along = (sqrt(max(square, 0.0)) - b) / a;
+	const vec3 place = origin + ray * along;
+	const float up = surface == surfaceCylinder ? place.y : atan(place.y, length(place.xz));
+	return vec3(atan(place.x, -place.z), up, square >= 0.0 ? along : -1.0);
+}
+
+vec2 texelOf(vec3 place) { return surface == surfaceFlat ? place.xy : placing.xy + place.xy * placing.zw; }
+
+/// One colour and its alpha between the four texels around a place, after decoding them; nothing beyond the sub-image.
+vec2 sampled(vec3 place, int channel, out float there)
+{
+	const vec2 texel = texelOf(place), at = within(texel, bounds.xy, bounds.zw), off = abs(texel - at);
+	const vec2 base = floor(at), part = at - base, middle = (base + 1.0) * size;
+	vec4 value = channel == 0   ? textureGather(layerTexture, middle, 0)
+				 : channel == 1 ? textureGather(layerTexture, middle, 1)
+								: textureGather(layerTexture, middle, 2);
+	const vec4 alpha = textureGather(layerTexture, middle, 3);
+	value = mix(value, decoded(value), texels.x);
+	// A little more than half a texel: a whole turn ends where it begins, whatever is rounded.
+	there = place.z > 0.0 && max(off.x, off.y) <= 0.501 ? 1.0 : 0.0;
+	const vec4 left = vec4(value.wx, alpha.wx), across = left + (vec4(value.zy, alpha.zy) - left) * part.x;
+	return across.xz + (across.yw - across.xz) * part.y;
+}
+
+/// Red's place follows from green's and blue's as in panel.frag; angles by the shorter way round.
+vec3 redOf(vec3 green, vec3 blue, float redFromBlue)
+{
+	vec2 apart = blue.xy - green.xy;
+	if (surface != surfaceFlat) apart.x -= turn * round(apart.x / turn);
+	vec2 red = green.xy + apart * redFromBlue;
+	if (surface != surfaceFlat) red.x -= turn * round(red.x / turn);
+	return vec3(red, green.z);
+}
+
+void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there)
+{
+	const vec3 across = rayMatrix[0] * seen.tangents.x + rayMatrix[1] * seen.tangents.y;
+	const vec3 green = met(rayMatrix[2] + across), blue = met(rayMatrix[2] + across * seen.chromatic.blue);
+	const vec3 red = redItself ? met(rayMatrix[2] + across * seen.chromatic.red) : redOf(green, blue, seen.chromatic.redFromBlue);
+	const vec2 r = sampled(red, 0, there.x), g = sampled(green, 1, there.y), b = sampled(blue, 2, there.z);
+	colour = vec3(r.x, g.x, b.x);
+	alpha = vec3(r.y, g.y, b.y);
+}
+#endif
+
+void main()
+{
+	const Seen seen = throughTheLens(lensVector);
+	vec3 colour, alpha, there;
+	layerColour(seen, colour, alpha, there);
+	alpha = mix(alpha, vec3(1.0), texels.y);
+	// XR_KHR_composition_layer_color_scale_bias: of straight colour, which then is what it was before, straight or not.
+	const vec3 straight = texels.w > 0.0 ? colour : mix(vec3(0.0), colour / max(alpha, 1e-6), greaterThan(alpha, vec3(0.0)));
+	const vec3 scaledAlpha = clamp(alpha * colorScale.a + colorBias.a, 0.0, 1.0);
+	const vec3 scaled = max(straight * colorScale.rgb + colorBias.rgb, 0.0) * (texels.w > 0.0 ? vec3(1.0) : scaledAlpha);
+	if (texels.z > 0.0) {
+		colour = scaled;
+		alpha = scaledAlpha;
+	}
+	const vec3 shown = there * seen.shown;
+	light = vec4(colour * (source.x + source.y * alpha) * shown, alpha.g * (source.z + source.w * alpha.g) * shown.g);
+	cover = vec4((1.0 - kept.x - kept.y * alpha) * shown, (1.0 - kept.z - kept.w * alpha.g) * shown.g);
+}

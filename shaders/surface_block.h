@@ -1,0 +1,28 @@
+// The numbers of one layer that panel.frag does not draw, shared by C++ and GLSL as those in panel_blocks.h.
+#ifndef ARIFT_SURFACE_BLOCK_H
+#define ARIFT_SURFACE_BLOCK_H
+
+#include "panel_blocks.h"
+
+#ifdef __cplusplus
+namespace arift::shaders
+{
+#endif
+
+/// One layer as one eye sees it, one band of lines.
+struct SurfaceBlock {
+	MatrixByLine ray; ///< (tangents, 1) -> flat: (x w, y w, w) with x, y texels of the image, integers at their centres, and w > 0 in
+					  ///< front; else: direction in the layer's frame, any length, and in the columns' w the eye's place there, in radii
+	vec4 placing;     ///< cylinder, sphere: texel straight ahead, and texels per unit to the right and up
+	vec4 bounds;      ///< first and last texel of the sub-image: xy, zw
+	vec4 colorScale, colorBias;
+	vec4 source;      ///< factors of the layer's colour (x + y alpha) and of its alpha (z + w alpha)
+	vec4 kept;        ///< the same of what is below it
+	vec4 texels;      ///< 1 where: x: they are sRGB encoded; y: their alpha counts as 1; z: scale and bias apply; w: colour is straight
+	vec4 size;        ///< xy: texture coordinate per texel
+};
+
+#ifdef __cplusplus
+} // namespace arift::shaders
+#endif
+#endif
