@@ -59,7 +59,7 @@ void Compositor::Loop::latchLayers(Frame &frame, Latched &latched) const
 	for (const auto &source : frame.sources) {
 		const auto content = frame.contents.emplace_back(source->content());
 		if (!content || frame.settings.rawPassthrough) continue;
-		latched.blendMode = content->blendMode; // the topmost application decides
+		if (source->order() == 0) latched.blendMode = content->blendMode; // the topmost application decides, overlays do not
 		for (PanelLayer layer : content->layers) {
 			for (size_t eye = 0; eye < 2; ++eye) {
 				if (isGone(layer.projection[eye])) layer.projection[eye].reset();

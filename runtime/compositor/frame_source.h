@@ -22,7 +22,8 @@ public:
 	virtual ~FrameSource() = default;
 	/// Of the session, for people.
 	virtual uint32_t number() const { return 0; }
-	/// The lowest is drawn first; those with the same in the order in which they were added.
+	/// The lowest is drawn first; those with the same in the order in which they were added. More than 0: an overlay, which leaves the
+	/// world as it is.
 	virtual uint64_t order() const { return 0; }
 	/// A refresh an application can still draw for, when it is woken now.
 	struct Opportunity {

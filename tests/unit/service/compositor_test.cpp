@@ -66,7 +66,7 @@ private:
 class FakeSource final : public FrameSource
 {
 public:
-	explicit FakeSource(uint64_t image)
+	explicit FakeSource(uint64_t image, uint64_t order = 0) : order_(order)
 	{
 		auto made = std::make_shared<FrameContent>();
 		made->frame = 1;
@@ -79,6 +79,7 @@ public:
 	{
 		wakes.update([&](auto &all) { all.push_back(opportunity); });
 	}
+	uint64_t order() const override { return order_; }
 	std::shared_ptr<const FrameContent> content() override { return content_; }
 	void shown(const std::shared_ptr<const FrameContent> &content) override { EXPECT_EQ(content, content_); }
 	void displayed(const FrameContent &, XrTime display) override
@@ -89,6 +90,7 @@ public:
 	Guarded<std::vector<XrTime>> displays{};
 
 private:
+	const uint64_t order_;
 	std::shared_ptr<const FrameContent> content_;
 };
 
@@ -178,6 +180,27 @@ TEST_F(CompositorTest, ApplicationsAreWokenForTheImageAfter)
 	run(2);
 	EXPECT_TRUE(drawn().back().inputs.layers.empty());
 	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND);
+}
+
+TEST_F(CompositorTest, SourcesAreDrawnInTheirOrderWheneverTheyCame)
+{
+	std::vector<std::shared_ptr<FakeSource>> sources;
+	const auto add = [&](uint64_t image, uint64_t order) {
+		compositor_->addImage(image, VkImage(1), {}, nullptr);
+		compositor_->addSource(sources.emplace_back(std::make_shared<FakeSource>(image, order)));
+	};
+	add(1, 9);
+	run(2);
+	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND) << "an overlay alone leaves the world as it is";
+	add(2, 0);
+	add(3, 4);
+	add(4, 0);
+	add(5, 9);
+	run(2);
+	std::vector<uint64_t> images;
+	for (const PanelLayer &layer : drawn().back().inputs.layers) images.push_back(layer.quad[0]->texture.image);
+	EXPECT_EQ(images, (std::vector<uint64_t>{2, 4, 3, 1, 5}));
+	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ADDITIVE);
 }
 
 TEST_F(CompositorTest, RawPassthroughShowsNoLayerAndApplicationsGoOn)

@@ -156,6 +156,33 @@ TEST(DecodeSubmission, EveryHostileFieldIsRefused)
 	}
 }
 
+TEST(DecodeVibrate, KnowsTwoMotorsAndAmplitudesFromNothingToAll)
+{
+	const auto isTaken = [](const ipc::Vibrate &message) {
+		try {
+			return std::holds_alternative<ipc::Vibrate>(decodeFrameRequest(bytesOf(message), find));
+		} catch (const Malformed &) {
+			return false;
+		}
+	};
+	EXPECT_TRUE(isTaken({.motors = 3, .amplitude = 1, .duration = std::numeric_limits<XrDuration>::min()}));
+	EXPECT_FALSE(isTaken({.motors = 4}));
+	for (const float amplitude : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+		EXPECT_FALSE(isTaken({.motors = 1, .amplitude = amplitude})) << amplitude;
+}
+
+TEST(DecodeCreateSession, KnowsNoMoreThanYesAndNo)
+{
+	for (uint32_t ipc::CreateSession::*field :
+		 {&ipc::CreateSession::headless, &ipc::CreateSession::overlay, &ipc::CreateSession::hasDepth}) {
+		ipc::CreateSession message;
+		message.*field = 1;
+		EXPECT_TRUE(std::holds_alternative<ipc::CreateSession>(decodeRequest(bytesOf(message))));
+		message.*field = 2;
+		EXPECT_THROW(decodeRequest(bytesOf(message)), Malformed);
+	}
+}
+
 TEST(DecodeSubmission, ItsLengthIsThatOfItsLayers)
 {
 	ipc::Received received = bytesOf(good());
