@@ -43,6 +43,7 @@ namespace arift::openxr
 	X(FB_display_refresh_rate)                                                                                                             \
 	X(VARJO_composition_layer_depth_test)                                                                                                  \
 	X(META_headset_id)                                                                                                                     \
+	X(MSFT_controller_model)                                                                                                               \
 	X(META_performance_metrics)                                                                                                            \
 	X(EXT_hand_interaction)                                                                                                                \
 	X(EXT_hp_mixed_reality_controller)                                                                                                     \

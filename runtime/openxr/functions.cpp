@@ -13,6 +13,7 @@
 #include "runtime/openxr/ext/khr_vulkan_enable.h"
 #include "runtime/openxr/ext/khr_vulkan_enable2.h"
 #include "runtime/openxr/ext/meta_performance_metrics.h"
+#include "runtime/openxr/ext/msft_controller_model.h"
 #include "runtime/openxr/instance.h"
 #include "runtime/openxr/session.h"
 #include "runtime/openxr/space.h"
@@ -153,6 +154,10 @@ const Function functions[] = {
 	ARIFT_OF(xrDestroyHandTrackerEXT, destroyHandTracker, EXT_hand_tracking)
 	ARIFT_OF(xrLocateHandJointsEXT, locateHandJoints, EXT_hand_tracking)
 	ARIFT_OF(xrPerfSettingsSetPerformanceLevelEXT, setPerformanceLevel, EXT_performance_settings)
+	ARIFT_OF(xrGetControllerModelKeyMSFT, getControllerModelKey, MSFT_controller_model)
+	ARIFT_OF(xrLoadControllerModelMSFT, loadControllerModel, MSFT_controller_model)
+	ARIFT_OF(xrGetControllerModelPropertiesMSFT, getControllerModelProperties, MSFT_controller_model)
+	ARIFT_OF(xrGetControllerModelStateMSFT, getControllerModelState, MSFT_controller_model)
 	ARIFT_OF(xrEnumerateColorSpacesFB, enumerateColorSpaces, FB_color_space)
 	ARIFT_OF(xrSetColorSpaceFB, setColorSpace, FB_color_space)
 	ARIFT_OF(xrEnumerateDisplayRefreshRatesFB, enumerateDisplayRefreshRates, FB_display_refresh_rate)

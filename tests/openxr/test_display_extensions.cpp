@@ -1,4 +1,5 @@
-// XR_FB_display_refresh_rate, XR_FB_color_space, XR_EXT_performance_settings, XR_EXT_hand_tracking and XR_META_performance_metrics.
+// XR_FB_display_refresh_rate, XR_FB_color_space, XR_EXT_performance_settings, XR_EXT_hand_tracking, XR_MSFT_controller_model
+// and XR_META_performance_metrics.
 #include "tests/openxr/headless_session.h"
 
 namespace arift
@@ -54,6 +55,31 @@ TEST(xrCreateHandTrackerEXT, IsUnsupported)
 	info.hand = XrHandEXT(3);
 	EXPECT_EQ(create(app.session, &info, &tracker), XR_ERROR_VALIDATION_FAILURE);
 	EXPECT_EQ(app.get<PFN_xrDestroyHandTrackerEXT>("xrDestroyHandTrackerEXT")(tracker), XR_ERROR_HANDLE_INVALID);
+}
+
+TEST(xrGetControllerModelKeyMSFT, NothingHasAModel)
+{
+	const HeadlessApplication app({"XR_MSFT_controller_model"});
+	const auto get = app.get<PFN_xrGetControllerModelKeyMSFT>("xrGetControllerModelKeyMSFT");
+	const auto pathOf = [&](const char *text) {
+		XrPath path = XR_NULL_PATH;
+		EXPECT_EQ(app.get<PFN_xrStringToPath>("xrStringToPath")(app.application.instance, text, &path), XR_SUCCESS);
+		return path;
+	};
+	XrControllerModelKeyStateMSFT state{XR_TYPE_CONTROLLER_MODEL_KEY_STATE_MSFT, nullptr, 5};
+	ASSERT_EQ(get(app.session, pathOf("/user/hand/left"), &state), XR_SUCCESS);
+	EXPECT_EQ(state.modelKey, XrControllerModelKeyMSFT(XR_NULL_CONTROLLER_MODEL_KEY_MSFT));
+	EXPECT_EQ(get(app.session, pathOf("/user/foot/left"), &state), XR_ERROR_PATH_UNSUPPORTED);
+	EXPECT_EQ(get(app.session, XR_NULL_PATH, &state), XR_ERROR_PATH_INVALID);
+	uint32_t size = 0;
+	EXPECT_EQ(app.get<PFN_xrLoadControllerModelMSFT>("xrLoadControllerModelMSFT")(app.session, 5, 0, &size, nullptr),
+			  XR_ERROR_CONTROLLER_MODEL_KEY_INVALID_MSFT);
+	XrControllerModelPropertiesMSFT properties{XR_TYPE_CONTROLLER_MODEL_PROPERTIES_MSFT};
+	EXPECT_EQ(app.get<PFN_xrGetControllerModelPropertiesMSFT>("xrGetControllerModelPropertiesMSFT")(app.session, 5, &properties),
+			  XR_ERROR_CONTROLLER_MODEL_KEY_INVALID_MSFT);
+	XrControllerModelStateMSFT nodes{XR_TYPE_CONTROLLER_MODEL_STATE_MSFT};
+	EXPECT_EQ(app.get<PFN_xrGetControllerModelStateMSFT>("xrGetControllerModelStateMSFT")(app.session, 5, &nodes),
+			  XR_ERROR_CONTROLLER_MODEL_KEY_INVALID_MSFT);
 }
 
 TEST(xrQueryPerformanceMetricsCounterMETA, MeasuresTheApplicationsFrame)

@@ -50,6 +50,7 @@ TEST(xrGetInstanceProcAddr, AnExtensionsFunctionsComeWithItAlone)
 		{"XR_FB_color_space", "xrSetColorSpaceFB"},
 		{"XR_FB_display_refresh_rate", "xrGetDisplayRefreshRateFB"},
 		{"XR_META_performance_metrics", "xrQueryPerformanceMetricsCounterMETA"},
+		{"XR_MSFT_controller_model", "xrGetControllerModelKeyMSFT"},
 	};
 	const Application without;
 	for (const auto &[extension, function] : functions) {
