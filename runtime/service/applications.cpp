@@ -1,7 +1,6 @@
 #include "runtime/service/applications.h"
 #include <algorithm>
 #include <openxr/openxr.h>
-#include <ranges>
 
 namespace arift
 {
@@ -56,9 +55,8 @@ void Applications::settle(State &state, XrTime now)
 		write(*running.page,
 			  {.type = ipc::EventType::visibilityChanged, .session = running.session, .time = now, .visible = 1, .focused = focused});
 	};
-	auto newestFirst = std::views::reverse(state.running);
-	const auto found = std::ranges::find_if(newestFirst, [](const Running &running) { return running.role.isMain(); });
-	Running *const main = found == newestFirst.end() ? nullptr : &*found;
+	const auto found = std::find_if(state.running.rbegin(), state.running.rend(), [](const Running &each) { return each.role.isMain(); });
+	Running *const main = found == state.running.rend() ? nullptr : &*found;
 	// The focus is taken before it is given: no two main sessions believe they have it.
 	for (Running &running : state.running)
 		if (running.role.isMain() && &running != main) tell(running, false);

@@ -24,6 +24,8 @@ using arift::fake::InputState;
 
 /// By descriptor. Mappings stay until the program ends.
 std::array<std::atomic<const InputState *>, 1024> states{};
+/// Whether an effect was uploaded: there is room for one.
+std::array<std::atomic<bool>, 1024> effects{};
 
 int failed(int code)
 {
@@ -60,6 +62,7 @@ int openNode(const char *path, const struct stat &status, int flags)
 		return failed(ENODEV);
 	}
 	states[size_t(fd)] = state;
+	effects[size_t(fd)] = false;
 	return fd;
 }
 
@@ -85,7 +88,9 @@ int giveTypeBits(const InputState &state, unsigned type, unsigned long request, 
 
 int uploadEffect(int fd, ff_effect *effect)
 {
-	if (effect->id < 0) effect->id = 3; // the kernel chooses; anything but 0, which a driver might take for granted
+	constexpr int16_t chosen = 3; // by the kernel; anything but 0, which a driver might take for granted
+	if (effect->id < 0 && effects[size_t(fd)].exchange(true)) return failed(ENOSPC);
+	effect->id = chosen;
 	return ::send(fd, effect, sizeof(*effect), MSG_NOSIGNAL) == ssize_t(sizeof(*effect)) ? 0 : failed(ENODEV);
 }
 

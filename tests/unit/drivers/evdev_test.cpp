@@ -200,6 +200,7 @@ std::unique_ptr<libevdev, Closer> padWith(const std::vector<InputModel::Axis> &a
 TEST(Gamepad, AxesAreFlatAtRestAndReachTheirEnds)
 {
 	const input_absinfo stick{.value = 0, .minimum = -100, .maximum = 100, .fuzz = 0, .flat = 20, .resolution = 0};
+	EXPECT_EQ(centredAxis(stick, 10), 0);
 	EXPECT_EQ(centredAxis(stick, 20), 0);
 	EXPECT_EQ(centredAxis(stick, -20), 0);
 	EXPECT_FLOAT_EQ(centredAxis(stick, 60), 0.5f) << "the way left begins at the edge of the flat part";
