@@ -69,6 +69,13 @@ const toml::node &TomlTable::node(const char *key, std::string_view expected)
 	return *node;
 }
 
+std::vector<std::string> TomlTable::keys() const
+{
+	std::vector<std::string> keys;
+	for (const auto &[key, value] : *table_) keys.emplace_back(key.str());
+	return keys;
+}
+
 double TomlTable::number(const char *key, double low, double high)
 {
 	const std::string expected = fmt::format("a number from {} to {}", low, high);

@@ -37,6 +37,8 @@ public:
 		asked_.insert(key);
 		return table_->contains(key);
 	}
+	/// Every key of the table, in the order of the alphabet. Counts as asking for none of them.
+	std::vector<std::string> keys() const;
 	double number(const char *key, double low, double high);
 	double number(const char *key, double low, double high, double otherwise) { return has(key) ? number(key, low, high) : otherwise; }
 	int64_t integer(const char *key, int64_t low, int64_t high);

@@ -39,7 +39,14 @@ toml::table parseSetting(const std::string &setting, const std::string &source)
 
 TomlDocument::TomlDocument(const std::filesystem::path &file) : table_(parseTomlFile(file)), name_(file.string()) {}
 
-void TomlDocument::add(const std::filesystem::path &file) { merge(table_, parseTomlFile(file)); }
+void TomlDocument::add(const std::filesystem::path &file, const std::string &under)
+{
+	toml::table table = parseTomlFile(file);
+	if (under.empty()) return merge(table_, std::move(table));
+	toml::table outer;
+	outer.emplace(under, std::move(table));
+	merge(table_, std::move(outer));
+}
 
 void TomlDocument::set(const std::string &setting)
 {

@@ -15,8 +15,8 @@ public:
 	explicit TomlDocument(const std::filesystem::path &file);
 	TomlDocument(const TomlDocument &) = delete; // toml++ forgets in a copy where the values stood
 
-	/// Puts what another file says above this. Throws InputError with file and line.
-	void add(const std::filesystem::path &file);
+	/// Puts what another file says above this: into the table `under`, where one is given. Throws InputError with file and line.
+	void add(const std::filesystem::path &file, const std::string &under = {});
 	/// What "--set KEY.PATH=VALUE" asks for; `setting` is the KEY.PATH=VALUE, its value as in TOML, quotes optional. Throws InputError.
 	void set(const std::string &setting);
 

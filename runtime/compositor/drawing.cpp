@@ -195,7 +195,8 @@ private:
 			item.arrayIndex = texture.arrayIndex;
 			item.pipeline.surface = surfaces_[size_t(tiles.layer)];
 			item.pipeline.layerEncoded = encoded_[size_t(tiles.layer)];
-			item.pipeline.keyed = draw_.inputs.layers[size_t(tiles.layer)].key.has_value();
+			// Only plain layers are keyed out.
+			item.pipeline.keyed = item.pipeline.surface == Surface::none && draw_.inputs.layers[size_t(tiles.layer)].key;
 		}
 		addRects(item, tiles.rects);
 	}

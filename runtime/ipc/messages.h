@@ -15,11 +15,12 @@ constexpr uint32_t protocol = 6;       // raised with every change of this file,
 /// Real time in which the service has opened its devices and answers Hello and CreateSession: a second or two, much more on a machine that
 /// is busy otherwise. Clients wait a little longer than this, so that they hear its reason.
 constexpr XrDuration openingLimit = 60 * second;
-constexpr uint32_t maxFds = 16;         // per message
-constexpr uint32_t maxImages = 8;       // per swapchain
-constexpr uint32_t maxArrayLayers = 64; // per image, faces included
-constexpr uint32_t maxLayers = 64;      // per submission
-constexpr uint32_t maxFormats = 16;     // of swapchains
+constexpr uint32_t maxFds = 16;               // per message
+constexpr uint32_t maxImages = 8;             // per swapchain
+constexpr uint32_t maxArrayLayers = 64;       // per image, faces included
+constexpr uint32_t maxLayers = 64;            // per submission
+constexpr uint32_t maxFormats = 16;           // of swapchains
+constexpr uint32_t maxPassthroughLayers = 16; // per session
 
 enum class MessageType : uint32_t {
 	// application or monitor -> service -> back
@@ -32,6 +33,8 @@ enum class MessageType : uint32_t {
 	createSwapchain,
 	swapchainCreated,
 	destroySwapchain,
+	showPassthrough,
+	stylePassthrough,
 	done,   // the reply without content
 	failed, // the reply to a request that could not be met
 	// frame channel
@@ -48,6 +51,7 @@ enum class MessageType : uint32_t {
 	setSetting, // reply: done or failed
 	recenter,
 	shutDown,
+	forcePassthrough, // reply: done or failed
 };
 
 constexpr bool isForMonitors(MessageType type) { return type >= MessageType::getStatus; }
@@ -161,6 +165,31 @@ struct DestroySwapchain {
 	uint32_t reserved = 0;
 };
 
+// ---- XR_FB_passthrough: what holds from the reply on, for submissions that came before, too
+
+/// Instead of a layer's number: the feature, without which none is shown.
+constexpr uint32_t everyPassthroughLayer = maxPassthroughLayers;
+struct ShowPassthrough {
+	static constexpr MessageType type = MessageType::showPassthrough;
+	Header header{type};
+	uint32_t session = 0;
+	uint32_t layer = 0; ///< the application numbers them
+	uint32_t shown = 0;
+	uint32_t reserved = 0;
+};
+struct StylePassthrough {
+	static constexpr MessageType type = MessageType::stylePassthrough;
+	Header header{type};
+	uint32_t session = 0;
+	uint32_t layer = 0;
+	float opacity = 1;
+	XrColor4f edge{0, 0, 0, 0};                         ///< linear, not multiplied by its alpha, which is 0 for none
+	float brightness = 0, contrast = 1, saturation = 1; ///< in CIELAB
+	uint32_t mapped = 0;                                ///< 1: luma is replaced by what `map` says, RGBA with sRGB encoded colours
+	uint32_t reserved = 0;
+	std::array<std::array<uint8_t, 4>, XR_PASSTHROUGH_COLOR_MAP_MONO_SIZE_FB> map{};
+};
+
 struct Done {
 	static constexpr MessageType type = MessageType::done;
 	Header header{type};
@@ -196,7 +225,7 @@ struct SubImage {
 	int32_t width = 0, height = 0;
 	uint32_t release = 0; ///< how often the image had been released: its content is the same while this is; 0: who knows
 };
-enum class LayerType : uint32_t { projection, quad, cylinder, equirect, cube };
+enum class LayerType : uint32_t { projection, quad, cylinder, equirect, cube, passthrough };
 enum class LayerFrame : uint32_t { origin /**< fixed in the world */, head /**< moves with the head (VIEW space) */ };
 /// XR_KHR_composition_layer_depth. 1 / distance ahead of the view (metres) = inverseBias + inverseScale * value in the image.
 struct ViewDepth {
@@ -239,6 +268,7 @@ struct Layer {
 	XrColor4f colorScale{1, 1, 1, 1}, colorBias{0, 0, 0, 0}; ///< of straight colour, before blending
 	BlendFactors blend;
 	DepthTest depthTest;
+	uint32_t passthrough = 0; ///< passthrough: the layer's number, which is all that counts then
 };
 /// Sent when all work on the images it names is finished. Only the first `layerCount` layers are sent.
 struct Submission {
@@ -308,6 +338,20 @@ struct Recenter {
 struct ShutDown {
 	static constexpr MessageType type = MessageType::shutDown;
 	Header header{type};
+};
+
+/// How the cameras' image is put behind an application that does not ask for it. Off: as the application wants it. Alpha: by its layers'
+/// alpha, whatever it says of it. Chroma: where a layer has a colour. Underlay: where no layer is.
+enum class Forced : uint32_t { off, alpha, chroma, underlay };
+struct ForcePassthrough {
+	static constexpr MessageType type = MessageType::forcePassthrough;
+	Header header{type};
+	char application[128]{}; ///< its name, whether or not it is connected
+	Forced mode = Forced::off;
+	float tolerance = 0.15f, softness = 0.1f; ///< of a chroma key, 0..1 (compositor/panel_inputs.h)
+	float opacity = 1;                        ///< of its layers
+	std::array<float, 3> colour{0, 1, 0};     ///< sRGB encoded
+	uint32_t reserved = 0;
 };
 
 } // namespace arift::ipc

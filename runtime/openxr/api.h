@@ -51,6 +51,10 @@ ARIFT_STRUCTURE(XrCompositionLayerSettingsFB, XR_TYPE_COMPOSITION_LAYER_SETTINGS
 #ifdef ARIFT_SUPPLIES_XR_FB_composition_layer_depth_test
 ARIFT_STRUCTURE(XrCompositionLayerDepthTestFB, XR_TYPE_COMPOSITION_LAYER_DEPTH_TEST_FB)
 #endif
+#ifdef ARIFT_SUPPLIES_XR_FB_passthrough_3
+ARIFT_STRUCTURE(XrSystemPassthroughProperties2FB, XR_TYPE_SYSTEM_PASSTHROUGH_PROPERTIES2_FB)
+ARIFT_STRUCTURE(XrPassthroughBrightnessContrastSaturationFB, XR_TYPE_PASSTHROUGH_BRIGHTNESS_CONTRAST_SATURATION_FB)
+#endif
 #undef ARIFT_STRUCTURE
 
 /// The first T in a chain of structures, or null.

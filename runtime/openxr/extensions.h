@@ -41,6 +41,7 @@ namespace arift::openxr
 	X(FB_composition_layer_depth_test)                                                                                                     \
 	X(FB_composition_layer_settings)                                                                                                       \
 	X(FB_display_refresh_rate)                                                                                                             \
+	X(FB_passthrough)                                                                                                                      \
 	X(VARJO_composition_layer_depth_test)                                                                                                  \
 	X(META_headset_id)                                                                                                                     \
 	X(MSFT_controller_model)                                                                                                               \

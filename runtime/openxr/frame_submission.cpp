@@ -2,6 +2,7 @@
 #include "runtime/openxr/ext/fb_composition_layer_alpha_blend.h"
 #include "runtime/openxr/ext/fb_composition_layer_depth_test.h"
 #include "runtime/openxr/ext/fb_composition_layer_settings.h"
+#include "runtime/openxr/ext/fb_passthrough.h"
 #include "runtime/openxr/ext/khr_composition_layer_color_scale_bias.h"
 #include "runtime/openxr/ext/khr_composition_layer_cube.h"
 #include "runtime/openxr/ext/khr_composition_layer_cylinder.h"
@@ -116,6 +117,9 @@ void FrameSubmission::addLayer(const XrCompositionLayerBaseHeader *header)
 	case XR_TYPE_COMPOSITION_LAYER_CUBE_KHR:
 		if (!has(Extension::KHR_composition_layer_cube)) break;
 		return addCube(reinterpret_cast<const XrCompositionLayerCubeKHR &>(*header));
+	case XR_TYPE_COMPOSITION_LAYER_PASSTHROUGH_FB:
+		if (!has(Extension::FB_passthrough)) break;
+		return addPassthrough(reinterpret_cast<const XrCompositionLayerPassthroughFB &>(*header));
 	default: break;
 	}
 	throw Error(XR_ERROR_LAYER_INVALID, "layers of XrStructureType {} are not supported, or not enabled", int(header->type));
@@ -174,6 +178,17 @@ void FrameSubmission::addDepth(ipc::LayerView &view, const void *next)
 	ipc::ViewDepth depth = depthOf(*info);
 	depth.image = subImage(info->subImage, ImageKind::depth);
 	if (std::abs(depth.inverseBias) < farthest && std::abs(depth.inverseScale) < farthest) view.depth = depth;
+}
+
+void FrameSubmission::addPassthrough(const XrCompositionLayerPassthroughFB &passthrough)
+{
+	const PassthroughLayer &object = handles.at<PassthroughLayer>(passthrough.layerHandle);
+	if (&object.session != &session_) throw Error(XR_ERROR_VALIDATION_FAILURE, "a passthrough layer belongs to another session");
+	ipc::Layer layer;
+	layer.type = ipc::LayerType::passthrough;
+	layer.flags = requireFlags(passthrough.flags);
+	layer.passthrough = object.number();
+	submission.layers[submission.layerCount++] = layer;
 }
 
 void FrameSubmission::addQuad(const XrCompositionLayerQuad &quad)

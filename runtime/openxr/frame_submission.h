@@ -41,6 +41,7 @@ private:
 	ipc::Layer layerWith(const void *next) const;
 	void addProjection(const XrCompositionLayerProjection &projection);
 	void addQuad(const XrCompositionLayerQuad &quad);
+	void addPassthrough(const XrCompositionLayerPassthroughFB &passthrough);
 	void addCube(const XrCompositionLayerCubeKHR &cube);
 	template <typename Layer> void addCurved(const Layer &curved, ipc::LayerType type, const char *what);
 	/// `layer`: its place is missing yet. One that has no place now or no extent is checked and left out.

@@ -7,6 +7,7 @@
 #include "runtime/openxr/ext/ext_performance_settings.h"
 #include "runtime/openxr/ext/fb_color_space.h"
 #include "runtime/openxr/ext/fb_display_refresh_rate.h"
+#include "runtime/openxr/ext/fb_passthrough.h"
 #include "runtime/openxr/ext/khr_convert_timespec_time.h"
 #include "runtime/openxr/ext/khr_opengl_enable.h"
 #include "runtime/openxr/ext/khr_visibility_mask.h"
@@ -163,6 +164,18 @@ const Function functions[] = {
 	ARIFT_OF(xrEnumerateDisplayRefreshRatesFB, enumerateDisplayRefreshRates, FB_display_refresh_rate)
 	ARIFT_OF(xrGetDisplayRefreshRateFB, getDisplayRefreshRate, FB_display_refresh_rate)
 	ARIFT_OF(xrRequestDisplayRefreshRateFB, requestDisplayRefreshRate, FB_display_refresh_rate)
+	ARIFT_OF(xrCreatePassthroughFB, createPassthrough, FB_passthrough)
+	ARIFT_OF(xrDestroyPassthroughFB, destroyPassthrough, FB_passthrough)
+	ARIFT_OF(xrPassthroughStartFB, startPassthrough, FB_passthrough)
+	ARIFT_OF(xrPassthroughPauseFB, pausePassthrough, FB_passthrough)
+	ARIFT_OF(xrCreatePassthroughLayerFB, createPassthroughLayer, FB_passthrough)
+	ARIFT_OF(xrDestroyPassthroughLayerFB, destroyPassthroughLayer, FB_passthrough)
+	ARIFT_OF(xrPassthroughLayerPauseFB, pausePassthroughLayer, FB_passthrough)
+	ARIFT_OF(xrPassthroughLayerResumeFB, resumePassthroughLayer, FB_passthrough)
+	ARIFT_OF(xrPassthroughLayerSetStyleFB, setPassthroughLayerStyle, FB_passthrough)
+	ARIFT_OF(xrCreateGeometryInstanceFB, createGeometryInstance, FB_passthrough)
+	ARIFT_OF(xrDestroyGeometryInstanceFB, destroyGeometryInstance, FB_passthrough)
+	ARIFT_OF(xrGeometryInstanceSetTransformFB, setGeometryInstanceTransform, FB_passthrough)
 	ARIFT_OF(xrEnumeratePerformanceMetricsCounterPathsMETA, enumeratePerformanceMetricsCounterPaths, META_performance_metrics)
 	ARIFT_OF(xrSetPerformanceMetricsStateMETA, setPerformanceMetricsState, META_performance_metrics)
 	ARIFT_OF(xrGetPerformanceMetricsStateMETA, getPerformanceMetricsState, META_performance_metrics)

@@ -4,6 +4,7 @@
 #include "runtime/openxr/image_sharing.h"
 #include "runtime/openxr/input.h"
 #include "runtime/openxr/instance.h"
+#include "runtime/openxr/passthrough_use.h"
 #include "runtime/openxr/service_devices.h"
 #include "runtime/openxr/session_life.h"
 #include "runtime/openxr/submitter.h"
@@ -68,6 +69,7 @@ public:
 	Input input;
 	ServiceDevices serviceDevices;
 	DebugLabels labels;
+	Guarded<PassthroughUse> passthrough;
 	/// Whether frameCost() is kept.
 	std::atomic<bool> measuresFrames{false};
 

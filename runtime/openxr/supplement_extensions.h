@@ -222,3 +222,28 @@ typedef struct XrCompositionLayerDepthTestFB {
 } XrCompositionLayerDepthTestFB;
 #define ARIFT_SUPPLIES_XR_FB_composition_layer_depth_test 1
 #endif
+
+// ---- XR_FB_passthrough: what its revisions 2 and 3 brought
+#if XR_FB_passthrough_SPEC_VERSION < 3
+#undef XR_FB_passthrough_SPEC_VERSION
+#define XR_FB_passthrough_SPEC_VERSION 3
+constexpr XrStructureType XR_TYPE_SYSTEM_PASSTHROUGH_PROPERTIES2_FB = XrStructureType(1000118006);
+constexpr XrStructureType XR_TYPE_PASSTHROUGH_BRIGHTNESS_CONTRAST_SATURATION_FB = XrStructureType(1000118023);
+typedef XrFlags64 XrPassthroughCapabilityFlagsFB;
+constexpr XrPassthroughCapabilityFlagsFB XR_PASSTHROUGH_CAPABILITY_BIT_FB = 1;
+constexpr XrPassthroughCapabilityFlagsFB XR_PASSTHROUGH_CAPABILITY_COLOR_BIT_FB = 2;
+constexpr XrPassthroughFlagsFB XR_PASSTHROUGH_LAYER_DEPTH_BIT_FB = 2;
+typedef struct XrSystemPassthroughProperties2FB {
+	XrStructureType type;
+	const void *XR_MAY_ALIAS next;
+	XrPassthroughCapabilityFlagsFB capabilities;
+} XrSystemPassthroughProperties2FB;
+typedef struct XrPassthroughBrightnessContrastSaturationFB {
+	XrStructureType type;
+	const void *XR_MAY_ALIAS next;
+	float brightness;
+	float contrast;
+	float saturation;
+} XrPassthroughBrightnessContrastSaturationFB;
+#define ARIFT_SUPPLIES_XR_FB_passthrough_3 1
+#endif

@@ -2,6 +2,7 @@
 #include "runtime/openxr/ext/ext_hand_tracking.h"
 #include "runtime/openxr/ext/ext_user_presence.h"
 #include "runtime/openxr/ext/fb_color_space.h"
+#include "runtime/openxr/ext/fb_passthrough.h"
 #include "runtime/openxr/ext/meta_headset_id.h"
 #include "runtime/openxr/instance.h"
 
@@ -48,6 +49,8 @@ void getSystemProperties(Instance &instance, XrSystemId system, XrSystemProperti
 	describe(instance, Extension::EXT_hand_tracking, properties.next, describeHandTracking);
 	describe(instance, Extension::EXT_user_presence, properties.next, describeUserPresence);
 	describe(instance, Extension::FB_color_space, properties.next, describeColorSpace);
+	describe(instance, Extension::FB_passthrough, properties.next, describePassthrough);
+	describe(instance, Extension::FB_passthrough, properties.next, describePassthrough2);
 	describe(instance, Extension::META_headset_id, properties.next, describeHeadsetId);
 }
 

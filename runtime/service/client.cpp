@@ -105,8 +105,11 @@ void Client::answer(const ipc::Hello &message)
 		return;
 	}
 	application_ = isApplication;
-	const Opened opened = world_.await(Stage::identified, ipc::openingLimit);
+	Opened opened = world_.await(Stage::identified, ipc::openingLimit);
 	if (application_) world_.applications.introduce(**page_);
+	const std::vector<XrEnvironmentBlendMode> modes = world_.settingsOf(ipc::textOf(message.applicationName)).blendModes;
+	opened.welcome.blendModeCount = uint32_t(modes.size());
+	std::ranges::copy(modes, opened.welcome.blendModes.begin());
 	const std::array fds{world_.system.fd(), world_.poses.fd(), page_->fd()};
 	reply(message.header, opened.welcome, std::span(fds).first(application_ ? 3 : 2));
 }
@@ -155,10 +158,15 @@ void Client::beginSession(uint32_t number, ipc::Socket channel)
 			socket_.hangUp();
 		},
 		role_.order());
+	std::string name;
 	about_->update([&](About &about) {
 		about.session = session_;
 		about.swapchains = swapchains_;
+		name = about.name;
 	});
+	// Whoever changes the settings from now on finds the session; who did before changed what is asked for here.
+	session_->present([&](Presentation &presentation) { presentation.forced = world_.settingsOf(name).passthrough; });
+	passthroughMaps_ = std::make_unique<PassthroughMaps>(device_, compositor_);
 }
 
 /// Where there is no memory for it, nothing is proven: images are copied.
@@ -204,6 +212,7 @@ void Client::stopSession()
 		about.session.reset();
 		about.swapchains.reset();
 	});
+	passthroughMaps_.reset();
 	session_.reset(); // the compositor may hold the closed session for the rest of its frame
 }
 
@@ -248,6 +257,28 @@ void Client::answer(const ipc::CreateSwapchain &message)
 void Client::answer(const ipc::DestroySwapchain &message)
 {
 	if (!swapchains_ || !swapchains_->destroy(message.swapchain)) throw Malformed("unknown swapchain {}", message.swapchain);
+	reply(message.header, ipc::Done{});
+}
+
+void Client::answer(const ipc::ShowPassthrough &message)
+{
+	sessionNumbered(message.session).present([&](Presentation &presentation) {
+		const bool shown = message.shown != 0;
+		if (message.layer == ipc::everyPassthroughLayer)
+			presentation.passthroughRuns = shown;
+		else
+			presentation.passthrough.at(message.layer).shown = shown;
+	});
+	reply(message.header, ipc::Done{});
+}
+
+void Client::answer(const ipc::StylePassthrough &message)
+{
+	Session &session = sessionNumbered(message.session);
+	PassthroughStyle style = styleOf(message);
+	style.map = passthroughMaps_->make(message);
+	session.present([&](Presentation &presentation) { presentation.passthrough.at(message.layer).style = style; });
+	passthroughMaps_->replace(message.layer, style.map);
 	reply(message.header, ipc::Done{});
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "runtime/ipc/shared_memory.h"
 #include "runtime/ipc/socket.h"
+#include "runtime/service/passthrough_maps.h"
 #include "runtime/service/session.h"
 #include "runtime/service/swapchains.h"
 #include "runtime/service/world.h"
@@ -41,12 +42,15 @@ private:
 	void answer(const ipc::SessionRunning &message);
 	void answer(const ipc::CreateSwapchain &message);
 	void answer(const ipc::DestroySwapchain &message);
+	void answer(const ipc::ShowPassthrough &message);
+	void answer(const ipc::StylePassthrough &message);
 	void answer(const ipc::GetStatus &message);
 	void answer(const ipc::Screenshot &message);
 	void answer(const ipc::SetSetting &message);
-	void keep(const char *key, float value);
+	void keep(const std::vector<std::string> &table, const Overrides::Values &values);
 	void answer(const ipc::Recenter &message);
 	void answer(const ipc::ShutDown &message);
+	void answer(const ipc::ForcePassthrough &message);
 	template <typename Reply> void reply(const ipc::Header &request, Reply message, std::span<const int> fds = {})
 	{
 		message.header.sequence = request.sequence;
@@ -71,7 +75,8 @@ private:
 	ipc::Sharing sharing_ = ipc::Sharing::memory; ///< what the session may ask for
 	std::shared_ptr<Swapchains> swapchains_;
 	std::shared_ptr<Session> session_;
-	SessionRole role_; ///< of the session
+	SessionRole role_;                                 ///< of the session
+	std::unique_ptr<PassthroughMaps> passthroughMaps_; ///< with the session
 	const std::shared_ptr<Guarded<About>> about_ = std::make_shared<Guarded<About>>();
 	std::jthread thread_;
 };

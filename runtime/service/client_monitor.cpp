@@ -1,5 +1,6 @@
 // What monitors ask: status, pictures, settings, recentring, the end.
 #include "runtime/compositor/compositor.h"
+#include "runtime/ipc/request.h"
 #include "runtime/service/client.h"
 #include "runtime/service/status.h"
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@ void Client::answer(const ipc::GetStatus &message)
 	const Opened opened = world_.await(Stage::ready, ipc::openingLimit);
 	nlohmann::json status = describeService(world_.config, opened.compositor->figures(message.resetFigures != 0));
 	status["passthrough"] = {{"raw", opened.compositor->rawPassthrough()}};
+	status["applications"] = describe(*world_.applicationSettings.lock());
 	opened.describeHeadset(status);
 	status["input"] = describeInput(world_.config.input);
 	world_.describeClients(status["clients"] = nlohmann::json::array());
@@ -45,12 +47,12 @@ void Client::answer(const ipc::Screenshot &message)
 }
 
 /// It is in effect whether or not it can be kept.
-void Client::keep(const char *key, float value)
+void Client::keep(const std::vector<std::string> &table, const Overrides::Values &values)
 {
 	try {
-		world_.overrides.keep("passthrough", key, value);
+		world_.overrides.keep(table, values);
 	} catch (const std::exception &problem) {
-		log::warning("passthrough.{} = {} holds until the service ends: {}", key, value, problem.what());
+		log::warning("what was set holds until the service ends: {}", problem.what());
 	}
 }
 
@@ -63,14 +65,14 @@ void Client::answer(const ipc::SetSetting &message)
 			throw Refused(XR_ERROR_VALIDATION_FAILURE,
 						  fmt::format("view_offset = {}, expected a number from 0 (eye) to 1 (camera)", message.value));
 		world_.views.update([&](ipc::ViewTable &views) { views.viewOffset = message.value; });
-		keep("view_offset", message.value);
+		keep({"passthrough"}, {{"view_offset", message.value}});
 		break;
 	case ipc::Setting::passthroughDistance:
 		if (message.value < 0.1f || message.value > 1000)
 			throw Refused(XR_ERROR_VALIDATION_FAILURE,
 						  fmt::format("passthrough_distance = {}, expected metres from 0.1 to 1000", message.value));
 		opened.compositor->setPassthroughDistance(double(message.value));
-		keep("distance", message.value);
+		keep({"passthrough"}, {{"distance", message.value}});
 		break;
 	case ipc::Setting::rawPassthrough: opened.compositor->setRawPassthrough(message.value != 0); break;
 	}
@@ -88,6 +90,23 @@ void Client::answer(const ipc::ShutDown &message)
 {
 	reply(message.header, ipc::Done{});
 	world_.requestStop();
+}
+
+void Client::answer(const ipc::ForcePassthrough &message)
+{
+	const std::string name = ipc::textOf(message.application);
+	if (name.empty()) throw Refused(XR_ERROR_VALIDATION_FAILURE, "an application without a name has no settings");
+	const ForcedPassthrough forced{message.mode, {message.colour, message.tolerance, message.softness}, message.opacity};
+	world_.applicationSettings.update([&](ApplicationTable &table) { table[name].passthrough = forced; });
+	world_.forEachSession([&](const std::string &application, Session &session) {
+		if (application == name) session.present([&](Presentation &presentation) { presentation.forced = forced; });
+	});
+	keep({"applications", name}, {{"passthrough", nameOf(forced.mode)},
+								  {"color", textOf(forced.key.colour)},
+								  {"tolerance", forced.key.tolerance},
+								  {"softness", forced.key.softness},
+								  {"opacity", forced.opacity}});
+	reply(message.header, ipc::Done{});
 }
 
 void describeClient(nlohmann::json &list, const Client::About &about)

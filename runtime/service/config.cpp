@@ -14,24 +14,6 @@ namespace fs = std::filesystem;
 namespace
 {
 
-std::vector<XrEnvironmentBlendMode> blendModes(TomlTable &passthrough)
-{
-	constexpr const char *expected = R"(an array of "opaque", "alpha_blend" and "additive", at least one, none twice)";
-	constexpr std::array names{"opaque", "alpha_blend", "additive"};
-	constexpr std::array values{XR_ENVIRONMENT_BLEND_MODE_OPAQUE, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND,
-								XR_ENVIRONMENT_BLEND_MODE_ADDITIVE};
-	std::vector<XrEnvironmentBlendMode> modes;
-	for (const std::string &name : passthrough.texts("blend_modes")) {
-		const auto found = std::ranges::find(names, name);
-		if (found == names.end()) passthrough.complain("blend_modes", expected);
-		const XrEnvironmentBlendMode mode = values[size_t(found - names.begin())];
-		if (std::ranges::find(modes, mode) != modes.end()) passthrough.complain("blend_modes", expected);
-		modes.push_back(mode);
-	}
-	if (modes.empty()) passthrough.complain("blend_modes", expected);
-	return modes;
-}
-
 std::array<double, 2> bounds(TomlTable &space)
 {
 	const std::vector<double> metres = space.numbers("bounds", 2);
@@ -71,8 +53,11 @@ Config decode(std::shared_ptr<const TomlDocument> document)
 	TomlTable passthrough = root.table("passthrough");
 	config.passthroughDistance = passthrough.number("distance", 0.1, 1000, config.passthroughDistance);
 	config.viewOffset = passthrough.number("view_offset", 0, 1, config.viewOffset);
-	if (passthrough.has("blend_modes")) config.blendModes = blendModes(passthrough);
+	if (passthrough.has("blend_modes")) config.blendModes = readBlendModes(passthrough);
 	passthrough.finish();
+
+	TomlTable applications = root.table("applications");
+	config.applications = readApplications(applications);
 
 	TomlTable space = root.table("space");
 	config.eyeHeight = space.number("eye_height", 0, 3, config.eyeHeight);
@@ -108,10 +93,13 @@ fs::path findConfig(const fs::path &given)
 	return fs::exists(usual) ? usual : fs::path();
 }
 
-Config readConfig(const fs::path &file, const std::vector<std::string> &overrides, const fs::path &programs)
+fs::path applicationsFile() { return configDirectory() / "applications.toml"; }
+
+Config readConfig(const fs::path &file, const std::vector<std::string> &overrides, const FurtherFiles &further)
 {
 	const auto document = file.empty() ? std::make_shared<TomlDocument>() : std::make_shared<TomlDocument>(file);
-	if (fs::exists(programs)) document->add(programs);
+	if (fs::exists(further.applications)) document->add(further.applications, "applications");
+	if (fs::exists(further.programs)) document->add(further.programs);
 	for (const std::string &setting : overrides) document->set(setting);
 	return decode(document);
 }

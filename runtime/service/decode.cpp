@@ -54,6 +54,27 @@ void check(const ipc::CreateSwapchain &message)
 	require(message.sharing <= ipc::Sharing::copies, "swapchain: neither shared nor copied");
 }
 void check(const ipc::DestroySwapchain &) {}
+bool isShare(float value) { return value >= 0 && value <= 1; }
+void check(const ipc::ShowPassthrough &message)
+{
+	require(message.layer <= ipc::everyPassthroughLayer && message.shown <= 1, "passthrough: layer or state out of range");
+}
+void check(const ipc::StylePassthrough &message)
+{
+	require(message.layer < ipc::maxPassthroughLayers && message.mapped <= 1, "passthrough style: layer or map out of range");
+	for (const float share : {message.opacity, message.edge.r, message.edge.g, message.edge.b, message.edge.a})
+		require(isShare(share), "passthrough style: opacity or edge out of range");
+	require(std::abs(message.brightness) <= 100, "passthrough style: brightness out of range");
+	for (const float factor : {message.contrast, message.saturation})
+		require(factor >= 0 && factor <= 1e6f, "passthrough style: contrast or saturation out of range");
+}
+void check(const ipc::ForcePassthrough &message)
+{
+	require(message.mode <= ipc::Forced::underlay, "passthrough of an unknown kind");
+	for (const float share :
+		 {message.tolerance, message.softness, message.opacity, message.colour[0], message.colour[1], message.colour[2]})
+		require(isShare(share), "passthrough: a number out of range");
+}
 void check(const ipc::GetStatus &message) { require(message.resetFigures <= 1, "status: reset is neither yes nor no"); }
 void check(const ipc::Screenshot &message) { require(message.kind <= ipc::PictureKind::eyes, "screenshot of an unknown kind"); }
 void check(const ipc::SetSetting &message)
@@ -144,9 +165,11 @@ void checkBlending(const ipc::Layer &layer)
 
 void checkLayer(const ipc::Layer &layer, const FindSwapchain &find)
 {
-	require(layer.type <= ipc::LayerType::cube, "layer of an unknown type");
+	require(layer.type <= ipc::LayerType::passthrough, "layer of an unknown type");
 	require(layer.frame <= ipc::LayerFrame::head, "layer in an unknown frame");
 	require(layer.eyes <= 3, "layer for unknown eyes");
+	if (layer.type == ipc::LayerType::passthrough)
+		return require(layer.passthrough < ipc::maxPassthroughLayers, "layer names a passthrough layer that cannot be");
 	checkBlending(layer);
 	if (layer.type == ipc::LayerType::projection) {
 		for (const ipc::LayerView &view : layer.views) checkView(view, find);
@@ -195,11 +218,14 @@ Request decodeRequest(const ipc::Received &received)
 	case sessionRunning: return checked<ipc::SessionRunning>(received);
 	case createSwapchain: return checked<ipc::CreateSwapchain>(received);
 	case destroySwapchain: return checked<ipc::DestroySwapchain>(received);
+	case showPassthrough: return checked<ipc::ShowPassthrough>(received);
+	case stylePassthrough: return checked<ipc::StylePassthrough>(received);
 	case getStatus: return checked<ipc::GetStatus>(received);
 	case screenshot: return checked<ipc::Screenshot>(received);
 	case setSetting: return checked<ipc::SetSetting>(received);
 	case recenter: return checked<ipc::Recenter>(received);
 	case shutDown: return checked<ipc::ShutDown>(received);
+	case forcePassthrough: return checked<ipc::ForcePassthrough>(received);
 	default: throw Malformed("message of unknown type {}", uint32_t(headerOf(received).type));
 	}
 }

@@ -10,7 +10,8 @@ namespace arift
 
 /// What a client may ask on its connection.
 using Request = std::variant<ipc::Hello, ipc::CreateSession, ipc::DestroySession, ipc::SessionRunning, ipc::CreateSwapchain,
-							 ipc::DestroySwapchain, ipc::GetStatus, ipc::Screenshot, ipc::SetSetting, ipc::Recenter, ipc::ShutDown>;
+							 ipc::DestroySwapchain, ipc::ShowPassthrough, ipc::StylePassthrough, ipc::GetStatus, ipc::Screenshot,
+							 ipc::SetSetting, ipc::Recenter, ipc::ShutDown, ipc::ForcePassthrough>;
 
 /// What comes through a session's frame channel.
 using FrameRequest = std::variant<ipc::WaitFrame, ipc::Submission, ipc::Relinquish, ipc::Vibrate>;

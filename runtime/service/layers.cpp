@@ -47,6 +47,7 @@ void addView(PanelLayer &result, uint32_t eye, const ipc::Layer &layer, bool row
 	case equirect: result.curved[eye] = curvedOf(layer, rowsGoUp); return;
 	// Every graphics API looks up a face's first row alike.
 	case cube: result.cube[eye] = CubeView{view.pose.orientation, textureOf(view.image)}; return;
+	case passthrough: return; // shows no image
 	}
 }
 
@@ -66,14 +67,22 @@ PanelLayer layerOf(const ipc::Layer &layer, bool rowsGoUp)
 
 } // namespace
 
-std::shared_ptr<const FrameContent> contentOf(const ipc::Submission &submission, XrTime received)
+std::shared_ptr<const FrameContent> contentOf(const ipc::Submission &submission, XrTime received, const Presentation &presentation)
 {
 	if (submission.layerCount == 0) return nullptr;
 	auto content = std::make_shared<FrameContent>();
 	content->frame = submission.frame;
 	content->received = received;
 	content->blendMode = XrEnvironmentBlendMode(submission.blendMode);
-	for (uint32_t i = 0; i < submission.layerCount; ++i) content->layers.push_back(layerOf(submission.layers[i], submission.rowsGoUp != 0));
+	for (uint32_t i = 0; i < submission.layerCount; ++i) {
+		const ipc::Layer &layer = submission.layers[i];
+		if (layer.type == ipc::LayerType::passthrough)
+			addPassthrough(*content, presentation, layer.passthrough);
+		else
+			content->layers.push_back(layerOf(layer, submission.rowsGoUp != 0));
+	}
+	force(*content, presentation.forced);
+	if (content->layers.empty() && content->blendMode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE) return nullptr;
 	return content;
 }
 

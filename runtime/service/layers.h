@@ -1,12 +1,11 @@
 // A decoded Submission -> what the compositor draws. Pure.
 #pragma once
-#include "runtime/compositor/frame_source.h"
-#include "runtime/ipc/messages.h"
+#include "runtime/service/presentation.h"
 
 namespace arift
 {
 
-/// Null for a submission without layers: nothing is to be shown.
-std::shared_ptr<const FrameContent> contentOf(const ipc::Submission &submission, XrTime received);
+/// Null where nothing is to be shown: for a submission without layers, or with nothing but passthrough that is not shown.
+std::shared_ptr<const FrameContent> contentOf(const ipc::Submission &submission, XrTime received, const Presentation &presentation = {});
 
 } // namespace arift

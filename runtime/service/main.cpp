@@ -95,7 +95,8 @@ int serve(const Arguments &arguments)
 			throw InputError("another arift-service is running (its lock is {}); `arift stop` ends it", ipc::lockPath().string());
 		return 0; // another was faster: whoever launched this one finds that
 	}
-	Service::Options options{readConfig(findConfig(arguments.config), arguments.overrides, overridesFile()), std::nullopt};
+	Service::Options options{readConfig(findConfig(arguments.config), arguments.overrides, {applicationsFile(), overridesFile()}),
+							 std::nullopt};
 	// systemd starts it for its socket, and again when the next application comes.
 	const bool autoStarted = arguments.launched || std::getenv("LISTEN_PID");
 	if (arguments.idleExit > 0 || autoStarted) options.idleExit = fromSeconds(arguments.idleExit > 0 ? arguments.idleExit : 60);

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 namespace
 {
 
-constexpr const char *header = "# Written by programs (`arift set`), above config.toml. Take a line away to have your own setting again.\n";
+constexpr const char *header = "# Written by programs (`arift set`, `arift passthrough`), above config.toml and applications.toml. Take a "
+							   "line away to have your own setting again.\n";
 
 /// Whether all of it lies on the disk.
 bool writeDown(const fs::path &file, const std::string &text)
@@ -38,18 +39,29 @@ void replace(const fs::path &file, const std::string &text)
 	throw InputError("{}: cannot be written{}", file.string(), problem ? ": " + problem.message() : "");
 }
 
+void put(toml::table &table, const std::string &key, const Overrides::Value &value)
+{
+	if (const float *number = std::get_if<float>(&value))
+		table.insert_or_assign(key, std::stod(fmt::format("{}", *number))); // 0.3, not the double nearest to the float
+	else
+		table.insert_or_assign(key, std::get<std::string>(value));
+}
+
 } // namespace
 
 fs::path overridesFile() { return configDirectory() / "overrides.toml"; }
 
-void Overrides::keep(const std::string &table, const std::string &key, float value)
+void Overrides::keep(const std::vector<std::string> &table, const Values &values)
 {
 	const std::lock_guard writing(writing_);
 	const fs::path file = file_.empty() ? overridesFile() : file_;
 	toml::table all = fs::exists(file) ? parseTomlFile(file) : toml::table{};
-	toml::table *const settings = all.emplace<toml::table>(table).first->second.as_table();
-	if (!settings) throw InputError("{}: {} is not a table", file.string(), table);
-	settings->insert_or_assign(key, std::stod(fmt::format("{}", value))); // 0.3, not the double nearest to the float
+	toml::table *settings = &all;
+	for (const std::string &name : table) {
+		settings = settings->emplace<toml::table>(name).first->second.as_table();
+		if (!settings) throw InputError("{}: {} is not a table", file.string(), name);
+	}
+	for (const auto &[key, value] : values) put(*settings, key, value);
 	std::ostringstream text;
 	text << header << '\n' << all << '\n';
 	std::error_code ignored;

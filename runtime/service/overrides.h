@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <mutex>
 #include <string>
+#include <variant>
+#include <vector>
 
 namespace arift
 {
@@ -17,9 +19,11 @@ public:
 	/// `file` instead of the user's. Nothing is read: what it says is part of the configuration. It is made with the first setting.
 	explicit Overrides(std::filesystem::path file = {}) : file_(std::move(file)) {}
 
-	/// Keeps `table.key = value` and every other setting of the file. The file is replaced as a whole or not at all. Throws InputError that
-	/// names the file where it cannot be written, or holds something else than settings.
-	void keep(const std::string &table, const std::string &key, float value);
+	using Value = std::variant<float, std::string>;
+	using Values = std::vector<std::pair<std::string, Value>>;
+	/// Keeps values in `table`, a path of keys, and every other setting of the file. The file is replaced as a whole or not at all. Throws
+	/// InputError that names the file where it cannot be written, or holds something else than settings.
+	void keep(const std::vector<std::string> &table, const Values &values);
 
 private:
 	const std::filesystem::path file_;

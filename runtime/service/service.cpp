@@ -59,6 +59,7 @@ Service::Service(Options options, ipc::Listener &listener)
 	world_.applications.focusMoves = [this] {
 		if (input_) input_->stopVibrating();
 	};
+	world_.forEachSession = [this](const auto &call) { forEachSession(call); };
 	world_.trace = makeTrace();
 	opener_ = std::jthread([this] { open(); });
 	heart_ = std::jthread([this](std::stop_token stop) { beat(stop); });
@@ -142,6 +143,14 @@ std::vector<std::shared_ptr<Guarded<Client::About>>> Service::abouts()
 	const auto clients = clients_.lock();
 	for (const Client &client : *clients) all.push_back(client.about());
 	return all;
+}
+
+void Service::forEachSession(const std::function<void(const std::string &, Session &)> &call)
+{
+	for (const auto &about : abouts()) {
+		const Client::About copy = *about->lock();
+		if (copy.session) call(copy.name, *copy.session);
+	}
 }
 
 /// Nobody who comes or goes waits for this.

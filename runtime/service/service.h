@@ -49,6 +49,7 @@ private:
 	std::unique_ptr<InputThread> readInput();
 	void fail(const std::string &problem, bool fault);
 	std::vector<std::shared_ptr<Guarded<Client::About>>> abouts();
+	void forEachSession(const std::function<void(const std::string &, Session &)> &call);
 	void describeClients(nlohmann::json &list);
 
 	const Options options_;

@@ -1,5 +1,4 @@
 #include "runtime/service/session.h"
-#include "runtime/service/layers.h"
 
 namespace arift
 {
@@ -58,6 +57,7 @@ void Session::setRunning(bool running)
 		state.running = running;
 		if (running) state.pace = {}; // the pause before was no interval
 		if (running) return;
+		state.submission.reset();
 		state.newest.reset();
 		if (state.waiting) afterwards.ready = answer(state);
 		afterwards.released = std::exchange(state.hold, std::nullopt);
@@ -146,17 +146,28 @@ void Session::take(const ipc::WaitFrame &message)
 	finish(afterwards);
 }
 
+std::shared_ptr<const FrameContent> Session::presented(const State &state)
+{
+	return state.submission ? contentOf(*state.submission, state.submissionCame, state.presentation) : nullptr;
+}
+
 void Session::take(const ipc::Submission &message)
 {
 	Afterwards afterwards;
 	images_.fetch(message);
-	std::shared_ptr<const FrameContent> content = contentOf(message, clock_.now()), before;
+	auto submission = std::make_shared<const ipc::Submission>(message);
+	std::shared_ptr<const FrameContent> before;
+	const XrTime now = clock_.now();
 	bool late = false;
 	state_.update([&](State &state) {
 		late = message.frame <= state.received;
 		if (late) return;
 		state.received = message.frame;
-		if (message.frame > state.relinquished) before = std::exchange(state.newest, content);
+		if (message.frame > state.relinquished) {
+			state.submission.swap(submission);
+			state.submissionCame = now;
+			before = std::exchange(state.newest, presented(state));
+		}
 		releaseIfComplete(state, afterwards);
 	});
 	finish(afterwards);
@@ -166,9 +177,12 @@ void Session::take(const ipc::Submission &message)
 void Session::take(const ipc::Relinquish &message)
 {
 	std::shared_ptr<const FrameContent> before;
+	std::shared_ptr<const ipc::Submission> submission;
 	state_.update([&](State &state) {
 		state.relinquished = std::max(state.relinquished, message.frame);
-		if (state.newest && state.newest->frame <= message.frame) before = std::exchange(state.newest, nullptr);
+		if (!state.submission || state.submission->frame > message.frame) return;
+		before.swap(state.newest);
+		submission.swap(state.submission);
 	});
 }
 

@@ -8,6 +8,7 @@
 #include "runtime/ipc/shared_memory.h"
 #include "runtime/ipc/socket.h"
 #include "runtime/service/decode.h"
+#include "runtime/service/layers.h"
 #include "runtime/service/pace.h"
 #include <functional>
 #include <thread>
@@ -47,6 +48,15 @@ public:
 	/// xrBeginSession and xrEndSession. An application that waits for a frame when its session ends is told not to draw.
 	void setRunning(bool running);
 	bool running();
+	/// How its submissions are shown from now on, the one that came last included.
+	template <typename Change> void present(Change change)
+	{
+		std::shared_ptr<const FrameContent> before; // gone when the lock is
+		state_.update([&](State &state) {
+			change(state.presentation);
+			before = std::exchange(state.newest, presented(state));
+		});
+	}
 	struct Count {
 		uint64_t submitted = 0, shown = 0;
 	};
@@ -72,9 +82,12 @@ private:
 		uint64_t received = 0;     ///< number of the newest submission that came
 		uint64_t relinquished = 0; ///< submissions up to this one are not to be shown any more
 		uint64_t shown = 0, newestShown = 0;
-		std::shared_ptr<const FrameContent> newest;
-		Opportunity current;  ///< the newest one the compositor announced
-		XrTime offeredAt = 0; ///< when it was
+		std::shared_ptr<const ipc::Submission> submission; ///< the newest one to be shown, as it came
+		XrTime submissionCame = 0;
+		Presentation presentation;
+		std::shared_ptr<const FrameContent> newest; ///< what is to be shown of the submission
+		Opportunity current;                        ///< the newest one the compositor announced
+		XrTime offeredAt = 0;                       ///< when it was
 		Pace pace;
 		XrTime answered = 0; ///< display time of the newest FrameReady
 		std::optional<Clock::Hold> hold;
@@ -96,6 +109,7 @@ private:
 	void finish(Afterwards &afterwards);
 	static void releaseIfComplete(State &state, Afterwards &afterwards);
 	static ipc::FrameReady answer(State &state);
+	static std::shared_ptr<const FrameContent> presented(const State &state);
 	static XrTime latchOf(const State &state);
 
 	const uint32_t number_;

@@ -112,6 +112,7 @@ void Swapchains::fetch(const ipc::Submission &submission)
 	};
 	for (uint32_t i = 0; i < submission.layerCount; ++i) {
 		const ipc::Layer &layer = submission.layers[i];
+		if (layer.type == ipc::LayerType::passthrough) continue;
 		fetchOnce(layer.views[0].image);
 		if (layer.type == ipc::LayerType::projection) fetchOnce(layer.views[1].image);
 	}

@@ -28,4 +28,12 @@ void World::recenter()
 	applications.tellRecentered(moved, now);
 }
 
+ApplicationSettings World::settingsOf(const std::string &name)
+{
+	ApplicationSettings settings;
+	if (const auto all = applicationSettings.lock(); all->contains(name)) settings = all->at(name);
+	if (settings.blendModes.empty()) settings.blendModes = config.blendModes;
+	return settings;
+}
+
 } // namespace arift

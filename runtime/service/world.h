@@ -20,6 +20,7 @@ namespace arift
 {
 
 class Compositor;
+class Session;
 
 /// Where views and spaces are: the service's copy, published as a whole with every change. Thread-safe.
 class Views
@@ -74,11 +75,17 @@ struct World {
 	std::unique_ptr<Trace> trace; ///< null: none is wanted
 	Realtime realtime;
 	Overrides overrides;
+	Guarded<ApplicationTable> applicationSettings{config.applications};
 	std::function<void()> requestStop;
 	/// What the motors of the gamepad are to do.
 	std::function<void(const ipc::Vibrate &)> vibrate;
 	/// One line per client for `arift status`.
 	std::function<void(nlohmann::json &)> describeClients;
+	/// Calls it for every session with its application's name, without a lock.
+	std::function<void(const std::function<void(const std::string &, Session &)> &)> forEachSession;
+
+	/// What the user decided about the application of that name, with what holds for all where nothing was.
+	ApplicationSettings settingsOf(const std::string &name);
 
 	/// Waits until the service has come to `stage`, at most `limit` of real time. Throws Refused with the reason where it does not.
 	Opened await(Stage stage, XrDuration limit);

@@ -54,6 +54,12 @@ protected:
 		render();
 		inputs.layers.erase(inputs.layers.begin()); // the quad alone, over the camera
 		render();
+		inputs.layers.front().key = KeyedOut{}; // the quad loses a colour
+		render();
+		inputs.layers.push_back({.passthrough = PassthroughStyle{.opacity = 0.5f}});
+		render();
+		inputs.layers.back().passthrough->contrast = 0.5f;
+		render();
 		inputs.cameras[1]->lens = 0; // an eye's camera is lost
 		render();
 	}

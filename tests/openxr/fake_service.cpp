@@ -160,6 +160,8 @@ void FakeService::answer(ipc::Socket &socket, const ipc::Received &received)
 		if (received.as<ipc::DestroySession>()) ++record.sessionsDestroyed;
 		if (received.as<ipc::DestroySwapchain>()) ++record.swapchainsDestroyed;
 		if (const auto running = received.as<ipc::SessionRunning>()) record.running = running->running != 0;
+		if (const auto show = received.as<ipc::ShowPassthrough>()) record.passthroughShown.push_back(*show);
+		if (const auto style = received.as<ipc::StylePassthrough>()) record.passthroughStyles.push_back(*style);
 	});
 	reply(socket, received, ipc::Done{});
 }

@@ -64,6 +64,8 @@ public:
 		bool running = false;
 		std::vector<ipc::CreateSession> sessions;
 		std::vector<ipc::Vibrate> vibrations;
+		std::vector<ipc::ShowPassthrough> passthroughShown;
+		std::vector<ipc::StylePassthrough> passthroughStyles;
 	};
 	/// The record when it fulfils `ready`; the test fails after ten seconds.
 	Record waitFor(const std::function<bool(const Record &)> &ready);

@@ -1,5 +1,6 @@
 // What the arift command can do. Each command throws InputError or std::runtime_error with one sentence for the user.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,17 @@ void recenter();
 void set(const std::string &name, double value);
 /// The cameras alone, or holograms again.
 void showRawPassthrough(bool raw);
+/// What is forced upon each application, connected or not.
+void listPassthrough();
+struct PassthroughOptions {
+	std::string application; ///< its name
+	std::string mode;        ///< off, alpha, chroma or underlay
+	// What is not given stays as it is.
+	std::optional<std::string> colour; ///< RRGGBB
+	std::optional<double> tolerance, softness, opacity;
+};
+/// Puts the cameras' image behind an application that knows only opaque pictures.
+void forcePassthrough(const PassthroughOptions &options);
 void stop();
 
 /// active_runtime.json and active_runtime.x86_64.json in openxr/1 of the user's configuration, or of /etc/xdg for everybody. What was there

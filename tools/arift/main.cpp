@@ -54,10 +54,6 @@ void addSettings(CLI::App &app)
 {
 	app.add_subcommand("recenter", "straight ahead is where the head looks now")->callback([] { tools::recenter(); });
 	app.add_subcommand("stop", "end the service")->callback([] { tools::stop(); });
-	auto *passthrough = app.add_subcommand("passthrough", "the cameras alone (raw), or with holograms");
-	auto what = std::make_shared<std::string>();
-	passthrough->add_option("WHAT", *what, "raw or holograms")->required()->check(CLI::IsMember({"raw", "holograms"}));
-	passthrough->callback([what] { tools::showRawPassthrough(*what == "raw"); });
 	auto *command = app.add_subcommand("set", "change a setting of the running service");
 	auto name = std::make_shared<std::string>();
 	auto value = std::make_shared<double>(0);
@@ -66,6 +62,30 @@ void addSettings(CLI::App &app)
 		->check(CLI::IsMember({"view_offset", "passthrough_distance"}));
 	command->add_option("VALUE", *value, "a number")->required();
 	command->callback([name, value] { tools::set(*name, *value); });
+}
+
+void addPassthrough(CLI::App &app)
+{
+	auto *command = app.add_subcommand("passthrough", "the cameras behind applications; alone: what is set for which");
+	auto options = std::make_shared<tools::PassthroughOptions>();
+	command->add_option("APPLICATION", options->application,
+						"its name; or raw: the cameras alone, without holograms; or holograms: as usual again");
+	command->add_option("MODE", options->mode,
+						"off: as the application wants it; alpha: through its pictures' alpha; chroma: where they have a colour; "
+						"underlay: where it shows nothing");
+	command->add_option("--color", options->colour, "chroma: that colour, RRGGBB");
+	command->add_option("--tolerance", options->tolerance, "chroma: colours nearer than this are that colour, 0 .. 1");
+	command->add_option("--softness", options->softness, "chroma: how soft the edge is, 0 .. 1");
+	command->add_option("--opacity", options->opacity, "of the application's pictures, 0 .. 1");
+	command->footer("What is not given stays as it is. It is kept, also for an application that is not there yet.");
+	command->callback([options] {
+		const std::string &name = options->application;
+		if (name.empty()) return tools::listPassthrough();
+		if (!options->mode.empty()) return tools::forcePassthrough(*options);
+		if (name != "raw" && name != "holograms")
+			throw CLI::ValidationError(name, "expected an application and off, alpha, chroma or underlay; or raw or holograms alone");
+		tools::showRawPassthrough(name == "raw");
+	});
 }
 
 } // namespace
@@ -81,6 +101,7 @@ int main(int argc, char **argv)
 	addScreenshot(app);
 	addRegistration(app);
 	addSettings(app);
+	addPassthrough(app);
 	try {
 		app.parse(argc, argv);
 		return 0;

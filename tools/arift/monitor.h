@@ -1,6 +1,7 @@
 // A connection to the running service in the role of a monitor.
 #pragma once
 #include "runtime/ipc/request.h"
+#include <nlohmann/json_fwd.hpp>
 
 namespace arift::tools
 {
@@ -23,5 +24,8 @@ private:
 	static constexpr XrDuration limit = 75 * second; // opening devices and a picture of a slow renderer included
 	ipc::Requests requests_;
 };
+
+/// What the service says of itself.
+nlohmann::json statusOf(Monitor &monitor, bool resetFigures = false);
 
 } // namespace arift::tools

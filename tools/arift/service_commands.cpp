@@ -55,6 +55,9 @@ void print(const nlohmann::json &status)
 								 device["node"].get<std::string>(), device["on"].get<bool>() ? "on" : "off",
 								 problem.empty() ? "" : fmt::format(", but cannot be read: {}", problem));
 	}
+	for (const auto &application : status["applications"])
+		std::cout << fmt::format("settings  of \"{}\": passthrough {}\n", application["name"].get<std::string>(),
+								 application["passthrough"].get<std::string>());
 	for (const auto &client : status["clients"]) {
 		std::cout << fmt::format("client    {} (pid {}): {}, {} submitted, {} shown, seen {} after they came\n",
 								 client["name"].get<std::string>(), client["pid"].get<int>(), client["state"].get<std::string>(),
@@ -82,14 +85,19 @@ void runService(const std::vector<std::string> &arguments)
 	throw InputError("{}: {}", program, std::strerror(errno));
 }
 
+nlohmann::json statusOf(Monitor &monitor, bool resetFigures)
+{
+	ipc::GetStatus request;
+	request.resetFigures = resetFigures;
+	const auto answer = monitor.ask<ipc::Status>(request);
+	const ipc::Mapping memory = mapped(answer, answer.reply.size);
+	return nlohmann::json::parse(std::string_view(static_cast<const char *>(memory.address()), answer.reply.size));
+}
+
 void status(const StatusOptions &options)
 {
 	Monitor monitor;
-	ipc::GetStatus request;
-	request.resetFigures = options.reset;
-	const auto answer = monitor.ask<ipc::Status>(request);
-	const ipc::Mapping memory = mapped(answer, answer.reply.size);
-	const auto status = nlohmann::json::parse(std::string_view(static_cast<const char *>(memory.address()), answer.reply.size));
+	const nlohmann::json status = statusOf(monitor, options.reset);
 	if (options.json)
 		std::cout << status.dump(2) << '\n';
 	else

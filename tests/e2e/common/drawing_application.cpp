@@ -6,14 +6,14 @@ namespace arift::e2e
 namespace
 {
 
-Instance createInstance(const std::string &name)
+Instance createInstance(const std::string &name, std::vector<const char *> extensions)
 {
-	const char *const extension = XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME;
+	extensions.push_back(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME);
 	XrInstanceCreateInfo info{XR_TYPE_INSTANCE_CREATE_INFO};
 	name.copy(info.applicationInfo.applicationName, XR_MAX_APPLICATION_NAME_SIZE - 1);
 	info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
-	info.enabledExtensionCount = 1;
-	info.enabledExtensionNames = &extension;
+	info.enabledExtensionCount = uint32_t(extensions.size());
+	info.enabledExtensionNames = extensions.data();
 	Instance instance;
 	check(xrCreateInstance(&info, &instance.value), "xrCreateInstance");
 	return instance;
@@ -113,8 +113,8 @@ void recordFill(const vk::raii::CommandBuffer &commands, VkImage image, VkFormat
 	change(Layout::eTransferDstOptimal, boundary);
 }
 
-DrawingApplication::DrawingApplication(const std::string &name)
-	: instance_(createInstance(name)),
+DrawingApplication::DrawingApplication(const std::string &name, std::vector<const char *> extensions)
+	: instance_(createInstance(name, std::move(extensions))),
 	  system_(findSystem(instance_)),
 	  vulkan_(instance_, system_),
 	  session_(createSession(instance_, system_, vulkan_)),
@@ -184,17 +184,19 @@ bool DrawingApplication::locate(XrTime time, XrSpace space, std::array<XrView, 2
 	return count == views.size() && (state.viewStateFlags & XR_VIEW_STATE_ORIENTATION_VALID_BIT);
 }
 
-void DrawingApplication::endFrame(XrTime time, const std::vector<const XrCompositionLayerBaseHeader *> &layers) const
+void DrawingApplication::endFrame(XrTime time, const std::vector<const XrCompositionLayerBaseHeader *> &layers,
+								  XrEnvironmentBlendMode mode) const
 {
 	XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
 	info.displayTime = time;
-	info.environmentBlendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
+	info.environmentBlendMode = mode;
 	info.layerCount = uint32_t(layers.size());
 	info.layers = layers.data();
 	check(xrEndFrame(session_, &info), "xrEndFrame");
 }
 
-ProjectionLayer::ProjectionLayer(XrSpace space, const std::array<XrView, 2> &views, const std::array<XrSwapchainSubImage, 2> &images)
+ProjectionLayer::ProjectionLayer(XrSpace space, const std::array<XrView, 2> &views, const std::array<XrSwapchainSubImage, 2> &images,
+								 XrCompositionLayerFlags flags)
 {
 	for (size_t eye = 0; eye < views_.size(); ++eye) {
 		views_[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
@@ -202,7 +204,7 @@ ProjectionLayer::ProjectionLayer(XrSpace space, const std::array<XrView, 2> &vie
 		views_[eye].fov = views[eye].fov;
 		views_[eye].subImage = images[eye];
 	}
-	layer_.layerFlags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
+	layer_.layerFlags = flags;
 	layer_.space = space;
 	layer_.viewCount = uint32_t(views_.size());
 	layer_.views = views_.data();

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace arift::e2e
 {
@@ -42,7 +43,8 @@ void recordFill(const vk::raii::CommandBuffer &commands, VkImage image, VkFormat
 class DrawingApplication
 {
 public:
-	explicit DrawingApplication(const std::string &name);
+	/// `extensions`: beside the one for Vulkan.
+	explicit DrawingApplication(const std::string &name, std::vector<const char *> extensions = {});
 	virtual ~DrawingApplication() = default;
 	DrawingApplication(const DrawingApplication &) = delete;
 
@@ -57,7 +59,8 @@ protected:
 	std::vector<int64_t> formats() const;
 	/// Both eyes' views in `space`; says whether they are where they are said to be.
 	bool locate(XrTime time, XrSpace space, std::array<XrView, 2> &views) const;
-	void endFrame(XrTime time, const std::vector<const XrCompositionLayerBaseHeader *> &layers) const;
+	void endFrame(XrTime time, const std::vector<const XrCompositionLayerBaseHeader *> &layers,
+				  XrEnvironmentBlendMode mode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND) const;
 
 	const Instance instance_;
 	const XrSystemId system_;
@@ -76,7 +79,8 @@ private:
 class ProjectionLayer
 {
 public:
-	ProjectionLayer(XrSpace space, const std::array<XrView, 2> &views, const std::array<XrSwapchainSubImage, 2> &images);
+	ProjectionLayer(XrSpace space, const std::array<XrView, 2> &views, const std::array<XrSwapchainSubImage, 2> &images,
+					XrCompositionLayerFlags flags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT);
 	ProjectionLayer(const ProjectionLayer &) = delete;
 	const XrCompositionLayerBaseHeader *header() const { return reinterpret_cast<const XrCompositionLayerBaseHeader *>(&layer_); }
 

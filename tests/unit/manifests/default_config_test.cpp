@@ -15,11 +15,11 @@ namespace arift
 namespace
 {
 
-/// manifests/config.toml with the comment signs taken away from its settings, but not from those in `except`.
-std::filesystem::path uncommented(const std::string &name, const std::vector<std::string> &except)
+/// A file of manifests with the comment signs taken away from its settings, but not from those in `except`.
+std::filesystem::path uncommented(const std::string &name, const std::vector<std::string> &except, const std::string &of = "config.toml")
 {
 	const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / name;
-	std::ifstream in(MANIFESTS "/config.toml");
+	std::ifstream in(MANIFESTS "/" + of);
 	EXPECT_TRUE(in.is_open());
 	std::ofstream out(file);
 	static const std::regex setting("^#([a-z_]+) = ");
@@ -46,6 +46,18 @@ TEST(DefaultConfiguration, ReadsAsTheDefaults)
 	EXPECT_EQ(given.target, defaults.target);
 	EXPECT_EQ(given.images, defaults.images);
 	EXPECT_EQ(given.input, defaults.input);
+}
+
+TEST(DefaultConfiguration, AnApplicationsSettingsAreItsDefaults)
+{
+	const std::filesystem::path file = uncommented("applications.toml", {}, "applications.toml");
+	const ApplicationTable given = readConfig({}, {}, {.applications = file}).applications;
+	ASSERT_EQ(given.size(), 1u);
+	EXPECT_EQ(given.begin()->first, "Name of an application");
+	EXPECT_EQ(given.begin()->second.passthrough, ForcedPassthrough{});
+	EXPECT_EQ(given.begin()->second.blendModes, Config().blendModes);
+	const ApplicationTable shipped = readConfig({}, {}, {.applications = MANIFESTS "/applications.toml"}).applications;
+	EXPECT_TRUE(shipped.begin()->second.blendModes.empty()) << "nothing is set as long as nobody takes a comment sign away";
 }
 
 TEST(DefaultConfiguration, TheSyntheticHeadsetsSettingsAreItsDefaults)
@@ -99,9 +111,16 @@ TEST(DefaultConfiguration, ListsEverySetting)
 		if (std::regex_search(line, match, header)) section = match[1];
 		if (std::regex_search(line, match, setting)) listed[section].insert(match[1]);
 	}
+	std::set<std::string> ofApplications;
+	std::ifstream applications(MANIFESTS "/applications.toml");
+	for (std::string line; std::getline(applications, line);)
+		if (std::smatch match; std::regex_search(line, match, setting)) ofApplications.insert(match[1]);
+	const std::vector<std::string> ofOne = keysOf("applications.any.");
+	EXPECT_EQ(ofApplications, std::set<std::string>(ofOne.begin(), ofOne.end()));
 	const std::vector<std::string> sections = keysOf("");
-	EXPECT_EQ(sections.size(), 9u);
+	EXPECT_EQ(sections.size(), 10u);
 	for (const std::string &name : sections) {
+		if (name == "applications") continue; // a file of its own
 		const std::vector<std::string> keys = keysOf(name + ".");
 		EXPECT_EQ(listed[name], std::set<std::string>(keys.begin(), keys.end())) << name;
 	}

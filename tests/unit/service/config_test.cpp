@@ -95,11 +95,12 @@ TEST_F(ConfigFile, ComplaintsNamePlaceValueAndWhatWasExpected)
 		{"[clock]\nmode = 'fast'", "config.toml:2: clock.mode = 'fast', expected one of \"real\", \"scaled\", \"stepped\""},
 		{"[clock]\nmode = 'real'\nrate = 2", "config.toml:3: clock.rate = 2, expected no rate unless clock.mode = \"scaled\""},
 		{"[headset]\ndrive = 'dk1'", "config.toml:2: unknown key headset.drive = 'dk1', expected one of: driver, rig"},
-		{"\n[pass_through]\n", "config.toml:2: unknown key pass_through = (a table), expected one of: clock, compositor, headset, "
-							   "input, passthrough, replay, space, swapchains, synthetic"},
-		{"[dk1]\n",
-		 "config.toml:1: unknown key dk1 = (a table), expected one of: clock, compositor, headset, input, passthrough, replay, space, "
-		 "swapchains, synthetic"},
+		{"\n[pass_through]\n",
+		 "config.toml:2: unknown key pass_through = (a table), expected one of: applications, clock, compositor, headset, "
+		 "input, passthrough, replay, space, swapchains, synthetic"},
+		{"[dk1]\n", "config.toml:1: unknown key dk1 = (a table), expected one of: applications, clock, compositor, headset, input, "
+					"passthrough, replay, space, "
+					"swapchains, synthetic"},
 		{"[headset]\ndriver = 'dk1'", "config.toml:2: headset.driver = 'dk1', expected one of \"auto\", \"synthetic\", \"replay\""},
 		{"[headset]\ndriver = 'synthetic'\n[replay]\nlop = true",
 		 "config.toml:4: unknown key replay.lop = true, expected one of: loop, recording"},
@@ -173,4 +174,48 @@ TEST_F(ConfigFile, LettersOutsideQuotesAreNamed)
 {
 	EXPECT_TRUE(problem("[headset]\nrig = \u025emine").starts_with("config.toml:2: "));
 	EXPECT_EQ(read("", {"headset.rig=\u00e9t\u00e9"}).rig, "\u00e9t\u00e9") << "a bare word in an override is a text";
+}
+
+TEST_F(ConfigFile, SettingsOfSingleApplicationsAreReadByTheirNames)
+{
+	const fs::path applications = folder_.write("applications.toml", R"(
+["X-Plane 12"]
+passthrough = "chroma"
+color = "FF00FF"
+tolerance = 0.2
+softness = 0.05
+opacity = 0.75
+[hello_xr]
+blend_modes = ["alpha_blend", "opaque"]
+)");
+	const fs::path programs = folder_.write("overrides.toml", "[applications.\"X-Plane 12\"]\ncolor = \"0000ff\"\n");
+	const ApplicationTable all = readConfig({}, {}, {applications, programs}).applications;
+	ASSERT_EQ(all.size(), 2u);
+	const ForcedPassthrough expected{ipc::Forced::chroma, {{0, 0, 1}, 0.2f, 0.05f}, 0.75f};
+	EXPECT_EQ(all.at("X-Plane 12").passthrough, expected);
+	EXPECT_TRUE(all.at("X-Plane 12").blendModes.empty());
+	EXPECT_EQ(all.at("hello_xr").passthrough, ForcedPassthrough{});
+	EXPECT_EQ(all.at("hello_xr").blendModes, (std::vector{XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND, XR_ENVIRONMENT_BLEND_MODE_OPAQUE}));
+}
+
+TEST_F(ConfigFile, WrongSettingsOfAnApplicationAreExplained)
+{
+	const auto complaint = [&](const std::string &line) {
+		const fs::path file = folder_.write("applications.toml", "[game]\n" + line + "\n");
+		try {
+			readConfig({}, {}, {.applications = file});
+			return std::string("no problem");
+		} catch (const InputError &error) {
+			return std::string(error.what()).substr(root_.string().size() + 1);
+		}
+	};
+	EXPECT_EQ(complaint("passthrough = \"green\""),
+			  "applications.toml:2: applications.game.passthrough = 'green', expected one of \"off\", \"alpha\", \"chroma\", \"underlay\"");
+	EXPECT_EQ(complaint("color = \"green\""),
+			  "applications.toml:2: applications.game.color = 'green', expected six hexadecimal digits, RRGGBB");
+	EXPECT_EQ(complaint("tolerance = 2"), "applications.toml:2: applications.game.tolerance = 2, expected a number from 0 to 1");
+	EXPECT_EQ(complaint("opacity = -1"), "applications.toml:2: applications.game.opacity = -1, expected a number from 0 to 1");
+	EXPECT_EQ(complaint("colour = 1"),
+			  "applications.toml:2: unknown key applications.game.colour = 1, expected one of: blend_modes, color, opacity, passthrough, "
+			  "softness, tolerance");
 }

@@ -134,6 +134,11 @@ TEST(DecodeSubmission, EveryHostileFieldIsRefused)
 		{"depth neither written nor not", [](auto &s, float, float) { s.layers[0].depthTest.writes = 2; }},
 		{"NaN depth range", [](auto &s, float n, float) { s.layers[0].depthTest.nearest = n; }},
 		{"negative depth range", [](auto &s, float, float) { s.layers[0].depthTest.farthest = -1; }},
+		{"passthrough layer",
+		 [](auto &s, float, float) {
+			 s.layers[0].type = ipc::LayerType::passthrough;
+			 s.layers[0].passthrough = ipc::maxPassthroughLayers;
+		 }},
 		{"layer frame", [](auto &s, float, float) { s.layers[0].frame = ipc::LayerFrame(7); }},
 		{"eyes", [](auto &s, float, float) { s.layers[1].eyes = 4; }},
 		{"NaN position", [](auto &s, float n, float) { s.layers[0].views[0].pose.position.x = n; }},
@@ -233,4 +238,29 @@ TEST(DecodeRequest, ValuesOutOfRangeAreRefused)
 	EXPECT_FALSE(acceptedRequest(ipc::SetSetting{.value = std::nanf("")}));
 	EXPECT_FALSE(acceptedRequest(ipc::SetSetting{.setting = ipc::Setting(3)}));
 	EXPECT_FALSE(acceptedRequest(ipc::Screenshot{.kind = ipc::PictureKind(2)}));
+}
+
+TEST(DecodeRequest, WhatIsSaidOfPassthroughIsChecked)
+{
+	const float nan = std::numeric_limits<float>::quiet_NaN();
+	EXPECT_TRUE(acceptedRequest(ipc::ShowPassthrough{.layer = ipc::everyPassthroughLayer, .shown = 1}));
+	EXPECT_FALSE(acceptedRequest(ipc::ShowPassthrough{.layer = ipc::everyPassthroughLayer + 1}));
+	EXPECT_FALSE(acceptedRequest(ipc::ShowPassthrough{.shown = 2}));
+	EXPECT_TRUE(acceptedRequest(ipc::StylePassthrough{.brightness = -100, .contrast = 1000, .saturation = 0}));
+	EXPECT_FALSE(acceptedRequest(ipc::StylePassthrough{.layer = ipc::everyPassthroughLayer}));
+	EXPECT_FALSE(acceptedRequest(ipc::StylePassthrough{.mapped = 2}));
+	for (const float bad : {-0.1f, nan}) {
+		EXPECT_FALSE(acceptedRequest(ipc::StylePassthrough{.opacity = bad}));
+		EXPECT_FALSE(acceptedRequest(ipc::StylePassthrough{.edge = {0, bad, 0, 0}}));
+		EXPECT_FALSE(acceptedRequest(ipc::StylePassthrough{.contrast = bad}));
+		EXPECT_FALSE(acceptedRequest(ipc::StylePassthrough{.saturation = bad}));
+		EXPECT_FALSE(acceptedRequest(ipc::ForcePassthrough{.tolerance = bad}));
+		EXPECT_FALSE(acceptedRequest(ipc::ForcePassthrough{.softness = bad}));
+		EXPECT_FALSE(acceptedRequest(ipc::ForcePassthrough{.opacity = bad}));
+		EXPECT_FALSE(acceptedRequest(ipc::ForcePassthrough{.colour = {0, 0, bad}}));
+	}
+	EXPECT_FALSE(acceptedRequest(ipc::StylePassthrough{.brightness = 101}));
+	EXPECT_FALSE(acceptedRequest(ipc::StylePassthrough{.brightness = nan}));
+	EXPECT_TRUE(acceptedRequest(ipc::ForcePassthrough{.mode = ipc::Forced::underlay}));
+	EXPECT_FALSE(acceptedRequest(ipc::ForcePassthrough{.mode = ipc::Forced(4)}));
 }

@@ -31,31 +31,43 @@ TEST_F(OverridesFile, StandAboveTheUsersOwnAndBelowTheCommandLine)
 {
 	const std::string users = "[passthrough]\nview_offset = 0.75\ndistance = 3.0\n";
 	const fs::path own = folder.write("config.toml", users);
-	overrides.keep("passthrough", "view_offset", 0.3f);
-	EXPECT_EQ(readConfig(own, {}, file).viewOffset, 0.3) << "as it was typed";
-	EXPECT_EQ(readConfig(own, {}, file).passthroughDistance, 3.0);
-	EXPECT_EQ(readConfig({}, {}, file).viewOffset, 0.3);
-	EXPECT_EQ(readConfig(own, {"passthrough.view_offset=0.5"}, file).viewOffset, 0.5);
+	overrides.keep({"passthrough"}, {{"view_offset", 0.3f}});
+	EXPECT_EQ(readConfig(own, {}, {.programs = file}).viewOffset, 0.3) << "as it was typed";
+	EXPECT_EQ(readConfig(own, {}, {.programs = file}).passthroughDistance, 3.0);
+	EXPECT_EQ(readConfig({}, {}, {.programs = file}).viewOffset, 0.3);
+	EXPECT_EQ(readConfig(own, {"passthrough.view_offset=0.5"}, {.programs = file}).viewOffset, 0.5);
 	EXPECT_EQ(contentOf(own), users);
-	EXPECT_EQ(readConfig(own, {}, folder.path() / "none.toml").viewOffset, 0.75) << "no program has changed anything yet";
+	EXPECT_EQ(readConfig(own, {}, {.programs = folder.path() / "none.toml"}).viewOffset, 0.75) << "no program has changed anything yet";
 }
 
 TEST_F(OverridesFile, EverySettingIsKeptWhenAnotherChanges)
 {
-	overrides.keep("passthrough", "view_offset", 0.25f);
-	overrides.keep("passthrough", "distance", 1.5f);
-	overrides.keep("passthrough", "view_offset", 1);
-	const Config config = readConfig({}, {}, file);
+	overrides.keep({"passthrough"}, {{"view_offset", 0.25f}});
+	overrides.keep({"passthrough"}, {{"distance", 1.5f}});
+	overrides.keep({"passthrough"}, {{"view_offset", 1.0f}});
+	const Config config = readConfig({}, {}, {.programs = file});
 	EXPECT_EQ(config.viewOffset, 1.0);
 	EXPECT_EQ(config.passthroughDistance, 1.5);
 	EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), {}), 1) << "nothing is left beside it";
 }
 
+TEST_F(OverridesFile, WhatIsSetForAnApplicationIsKeptUnderItsName)
+{
+	const fs::path applications = folder.write("applications.toml", "[\"A game\"]\nopacity = 0.5\npassthrough = \"alpha\"\n");
+	overrides.keep({"applications", "A game"}, {{"passthrough", "chroma"}, {"tolerance", 0.3f}, {"color", "112233"}});
+	const ForcedPassthrough found = readConfig({}, {}, {applications, file}).applications.at("A game").passthrough;
+	EXPECT_EQ(found.mode, ipc::Forced::chroma);
+	EXPECT_EQ(found.key.tolerance, 0.3f);
+	EXPECT_EQ(textOf(found.key.colour), "112233");
+	EXPECT_EQ(found.opacity, 0.5f) << "the user's own";
+}
+
 TEST_F(OverridesFile, ADamagedOneIsNamedAndLeftAlone)
 {
 	folder.write("arift/overrides.toml", "passthrough = 3\n");
-	for (const auto &attempt : {std::function<void()>([&] { readConfig({}, {}, file); }),
-								std::function<void()>([&] { overrides.keep("passthrough", "view_offset", 0); })}) {
+	for (const auto &attempt : {std::function<void()>([&] { readConfig({}, {}, {.programs = file}); }), std::function<void()>([&] {
+									overrides.keep({"passthrough"}, {{"view_offset", 0.0f}});
+								})}) {
 		try {
 			attempt();
 			FAIL() << "not noticed";
@@ -69,7 +81,7 @@ TEST_F(OverridesFile, ADamagedOneIsNamedAndLeftAlone)
 TEST_F(OverridesFile, WhatCannotBeWrittenIsNamed)
 {
 	folder.write("arift", "a file where the folder should be");
-	EXPECT_THROW(overrides.keep("passthrough", "view_offset", 0), InputError);
+	EXPECT_THROW(overrides.keep({"passthrough"}, {{"view_offset", 0.0f}}), InputError);
 }
 
 } // namespace
