@@ -3,6 +3,7 @@
 #include "tests/e2e/common/private_service.h"
 #include "tests/fakes/evdev/fake_input_device.h"
 #include "tests/openxr/application.h"
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -31,7 +32,8 @@ struct InputService : PrivateService {
 
 /// A headless application with one action of each kind that these tests need.
 struct Player : Application {
-	Player() : Application({"XR_MND_headless"}), played(session())
+	/// `next`: of XrSessionCreateInfo.
+	explicit Player(const void *next = nullptr) : Application({"XR_MND_headless", "XR_EXTX_overlay"}), played(session(next))
 	{
 		EXPECT_EQ(begin(played), XR_SUCCESS);
 		states();
@@ -87,12 +89,14 @@ struct Player : Application {
 		return false;
 	}
 	/// Whether an event of this type comes within ten seconds; those before it are dropped.
-	bool hears(XrStructureType type) const
+	bool hears(XrStructureType type, XrEventDataBuffer *heard = nullptr) const
 	{
 		XrEventDataBuffer event;
 		return soon([&] {
-			while (poll(event) == XR_SUCCESS)
+			while (poll(event) == XR_SUCCESS) {
+				if (heard) *heard = event;
 				if (event.type == type) return true;
+			}
 			return false;
 		});
 	}
@@ -177,6 +181,26 @@ TEST(Input, AVibrationEndsWithTheApplicationThatAskedForIt)
 		EXPECT_EQ(pad.nextPlayed(), (FakeInputDevice::Played{0, 0x8000, 30'000, true}));
 	}
 	EXPECT_EQ(pad.nextPlayed(), (FakeInputDevice::Played{0, 0, 0, false}));
+}
+
+TEST(Input, AnOverlayHasItBesideTheMainSessionAndHearsWhetherThatIsSeen)
+{
+	InputService service("devices = [\"Test *\"]\nsimple_controller = \"right\"\n");
+	FakeInputDevice keyboard(service.folders, "event0", InputModel::keyboard());
+	const XrSessionCreateInfoOverlayEXTX overlay{XR_TYPE_SESSION_CREATE_INFO_OVERLAY_EXTX, nullptr, 0, 1};
+	const Player player(&overlay);
+	ChildProcess cube = service.start("hologram_cube", {});
+	ASSERT_TRUE(eventually(service, [](const auto &status) {
+		return std::ranges::any_of(status["clients"], [](const auto &client) { return client["shown"] > 2; });
+	})) << cube.output();
+	XrEventDataBuffer event;
+	ASSERT_TRUE(player.hears(XR_TYPE_EVENT_DATA_MAIN_SESSION_VISIBILITY_CHANGED_EXTX, &event));
+	EXPECT_TRUE(reinterpret_cast<const XrEventDataMainSessionVisibilityChangedEXTX &>(event).visible);
+	keyboard.press(KEY_SPACE);
+	EXPECT_TRUE(player.soon([&] { return player.selected().currentState != 0; }));
+	cube.stop();
+	ASSERT_TRUE(player.hears(XR_TYPE_EVENT_DATA_MAIN_SESSION_VISIBILITY_CHANGED_EXTX, &event));
+	EXPECT_FALSE(reinterpret_cast<const XrEventDataMainSessionVisibilityChangedEXTX &>(event).visible);
 }
 
 TEST(Input, TheServicesOwnKeysRecentreAndShowTheCamerasAlone)
