@@ -205,8 +205,8 @@ vec2 layerTexel(vec2 texel, float w, int channel)
 	vec4 alpha = textureGather(layerTexture, middle, 3);
 	if (keyed) alpha = keptOf(middle);
 	if (layerEncoded) value = decoded(value);
-	// What is half the key's colour has that much of it to lose.
-	if (keyed) value = max(value - (1.0 - alpha) * decoded(vec4(layerFurther[0].rgb, 0.0))[channel], 0.0) * layerFurther[1].y;
+	// What is half the key's colour has that much of it to lose, and no more light than a picture of that alpha.
+	if (keyed) value = clamp(value - (1.0 - alpha) * decoded(vec4(layerFurther[0].rgb, 0.0))[channel], vec4(0.0), alpha) * layerFurther[1].y;
 	if (keyed) alpha *= layerFurther[1].y;
 	if (layerCover == coverOpaque) {
 		const vec2 across = value.wx + (value.zy - value.wx) * part.x;

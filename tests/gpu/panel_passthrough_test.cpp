@@ -230,7 +230,7 @@ protected:
 		const double kept = keptOf({double(code[0]), double(code[1]), double(code[2])}, keyed.key), opacity = double(keyed.opacity);
 		Linear light{};
 		for (size_t i = 0; i < 3; ++i) {
-			const double own = std::max(linearOf(code[i]) - (1 - kept) * linearOf(255 * double(keyed.key.colour[i])), 0.0);
+			const double own = std::clamp(linearOf(code[i]) - (1 - kept) * linearOf(255 * double(keyed.key.colour[i])), 0.0, kept);
 			light[i] = own * opacity + camera[i] * (1 - kept * opacity);
 		}
 		return light;
