@@ -7,6 +7,7 @@
 #include "tests/fakes/evdev/fake_input_device.h"
 #include <chrono>
 #include <gtest/gtest.h>
+#include <optional>
 #include <thread>
 
 namespace arift::evdev
@@ -116,6 +117,18 @@ TEST_F(Evdev, DevicesComeAndGoWhileTheyAreRead)
 		EXPECT_EQ(gone.device, former);
 		EXPECT_EQ(look(), Outcome::timeout);
 	}
+}
+
+TEST_F(Evdev, OneThatHasTakenTheNodeOfAnotherIsReadWhenThatIsGone)
+{
+	std::optional<FakeInputDevice> pad;
+	pad.emplace(folders, "event5", InputModel::gamepad());
+	const InputReport former = next();
+	pad.reset();
+	pad.emplace(folders, "event5", InputModel::gamepad()); // before anybody looked
+	const InputReport gone = next(), come = next();
+	EXPECT_TRUE(!gone.isThere && gone.device == former.device);
+	EXPECT_TRUE(come.isThere && come.device != former.device);
 }
 
 TEST_F(Evdev, AFolderThatIsNotThereYetIsLookedForAgain)
