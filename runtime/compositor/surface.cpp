@@ -11,7 +11,7 @@ namespace
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/// A blend factor in the shader's terms: constant + byAlpha * the layer's alpha.
+/// A blend factor in the shader's terms: constant + byAlpha * the layer's alpha. Of the alpha below, which no shader sees, there is none.
 struct Factor {
 	float constant = 0, byAlpha = 0;
 };
