@@ -237,7 +237,7 @@ Drawing warmUpDrawing(std::span<const PipelineKey> pipelines, std::span<const ui
 	for (const PipelineKey &key : pipelines) {
 		item.pipeline = key;
 		const std::span<const uint64_t> drawn = key.surface == Surface::cube ? cubes : images;
-		for (const uint64_t image : key.layer == Cover::none ? images.first(1) : drawn) {
+		for (const uint64_t image : key.layer == Cover::none && key.look != Look::styled ? images.first(1) : drawn) {
 			item.image = image;
 			drawing.items.push_back(item);
 		}
