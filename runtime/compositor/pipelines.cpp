@@ -256,7 +256,26 @@ Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const P
 	  layout_(makeLayout(gpu, {*eyeSetLayout_, *layerSetLayout_, *surfaceSetLayout_}))
 {
 	const Factory factory{gpu, optics, *layout_, *renderPass_};
-	for (const PipelineKey &key : everyKey(optics)) pipelines_.emplace(key, factory.make(key));
+	for (const PipelineKey &key : usualKeys(optics)) usual_.emplace(key, factory.make(key));
+	for (const PipelineKey &key : everyKey(optics))
+		if (!usual_.contains(key)) others_[key];
+	makesOthers_ = std::jthread([this, &gpu, &optics](const std::stop_token &stop) {
+		const Factory other{gpu, optics, *layout_, *renderPass_};
+		for (auto &[key, later] : others_) {
+			if (stop.stop_requested()) return;
+			try {
+				later.promise.set_value(other.make(key));
+			} catch (...) {
+				later.promise.set_exception(std::current_exception());
+			}
+		}
+	});
+}
+
+vk::Pipeline Pipelines::at(const PipelineKey &key) const
+{
+	const auto usual = usual_.find(key);
+	return usual != usual_.end() ? *usual->second : *others_.at(key).pipeline.get();
 }
 
 } // namespace arift

@@ -1,10 +1,12 @@
-// Every pipeline the renderer can need, made before the first frame.
+// Every pipeline the renderer can need: the usual ones are made before the first frame, the others by a thread of their own meanwhile.
 #pragma once
 #include "runtime/compositor/panel_inputs.h"
 #include "runtime/compositor/panel_optics.h"
 #include "runtime/gpu/handles.h"
 #include <compare>
+#include <future>
 #include <map>
+#include <thread>
 
 namespace arift
 {
@@ -35,7 +37,9 @@ std::vector<PipelineKey> usualKeys(const PanelOptics &optics);
 class Pipelines
 {
 public:
+	/// All of them must outlive it.
 	Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const PanelOptics &optics);
+	Pipelines(const Pipelines &) = delete;
 
 	vk::RenderPass renderPass() const { return *renderPass_; }
 	vk::PipelineLayout layout() const { return *layout_; }
@@ -44,13 +48,22 @@ public:
 	vk::DescriptorSetLayout eyeSetLayout() const { return *eyeSetLayout_; }
 	vk::DescriptorSetLayout layerSetLayout() const { return *layerSetLayout_; }
 	vk::DescriptorSetLayout surfaceSetLayout() const { return *surfaceSetLayout_; }
-	vk::Pipeline at(const PipelineKey &key) const { return *pipelines_.at(key); }
+	/// One that is not usual may have to be waited for in the first second or two. Throws vk::SystemError where it could not be made.
+	vk::Pipeline at(const PipelineKey &key) const;
 
 private:
+	/// A pipeline that is being made.
+	struct Later {
+		std::promise<vk::raii::Pipeline> promise;
+		std::shared_future<vk::raii::Pipeline> pipeline = promise.get_future();
+	};
+
 	vk::raii::RenderPass renderPass_;
 	vk::raii::DescriptorSetLayout eyeSetLayout_, layerSetLayout_, surfaceSetLayout_;
 	vk::raii::PipelineLayout layout_;
-	std::map<PipelineKey, vk::raii::Pipeline> pipelines_;
+	std::map<PipelineKey, vk::raii::Pipeline> usual_;
+	std::map<PipelineKey, Later> others_;
+	std::jthread makesOthers_;
 };
 
 } // namespace arift
