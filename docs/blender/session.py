@@ -9,8 +9,6 @@ def start():
     settings.base_pose_type = "CUSTOM"
     settings.base_pose_location = (0, -4, 0)  # four metres before the default cube, looking at it
     settings.shading.type = "SOLID"
-    settings.shading.background_type = "VIEWPORT"  # Blender adds its background's colour to the world: none
-    settings.shading.background_color = (0, 0, 0)
     settings.show_floor = False
     settings.show_passthrough = True
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
