@@ -43,10 +43,10 @@ void *FrameMemory::allocate(size_t bytes)
 	return ::operator new(bytes);
 }
 
-void FrameMemory::release(void *memory, size_t bytes) noexcept
+void FrameMemory::release(void *memory) noexcept
 {
 	if (current_ && current_->owns(memory)) return;
-	::operator delete(memory, bytes);
+	::operator delete(memory);
 }
 
 } // namespace arift

@@ -28,7 +28,7 @@ public:
 
 	/// From the heap where no Turn is under way on this thread. Aligned for every type that needs no more than std::max_align_t.
 	static void *allocate(size_t bytes);
-	static void release(void *memory, size_t bytes) noexcept;
+	static void release(void *memory) noexcept;
 
 private:
 	std::byte *take(size_t bytes);
@@ -49,7 +49,7 @@ template <typename T> struct FrameMemoryAllocator {
 		static_assert(alignof(T) <= alignof(std::max_align_t));
 		return static_cast<T *>(FrameMemory::allocate(count * sizeof(T)));
 	}
-	void deallocate(T *memory, size_t count) noexcept { FrameMemory::release(memory, count * sizeof(T)); }
+	void deallocate(T *memory, size_t) noexcept { FrameMemory::release(memory); }
 	friend bool operator==(const FrameMemoryAllocator &, const FrameMemoryAllocator &) { return true; }
 };
 template <typename T> using FrameVector = std::vector<T, FrameMemoryAllocator<T>>;

@@ -260,11 +260,12 @@ Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const P
 	for (const PipelineKey &key : everyKey(optics))
 		if (!usual_.contains(key)) others_[key];
 	makesOthers_ = std::jthread([this, &gpu, &optics](const std::stop_token &stop) {
-		const Factory other{gpu, optics, *layout_, *renderPass_};
+		std::optional<Factory> other;
 		for (auto &[key, later] : others_) {
 			if (stop.stop_requested()) return;
 			try {
-				later.promise.set_value(other.make(key));
+				if (!other) other.emplace(Factory{gpu, optics, *layout_, *renderPass_});
+				later.promise.set_value(other->make(key));
 			} catch (...) {
 				later.promise.set_exception(std::current_exception());
 			}

@@ -73,7 +73,8 @@ struct FakeSession : testing::Test {
 	/// A running session.
 	Session &session() const
 	{
-		const XrSession handle = handles.insert(std::make_unique<Session>(instance, std::make_unique<FakeGraphics>(device)), &instance);
+		const XrSession handle =
+			handles.insert(std::make_unique<Session>(instance, std::make_unique<FakeGraphics>(device), nullptr), &instance);
 		Session &made = handles.at<Session>(handle);
 		made.announce();
 		made.begin(XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO);
