@@ -382,8 +382,9 @@ TEST_P(PanelAccuracy, CubeLayer)
 		const Mapping mapping = [&](int eye, int channel, const Vector2d &pixel) -> std::optional<Vector2d> {
 			return bench().reference().cubeTexel(now, cube, false, eye, channel, pixel).texel;
 		};
+		// The lens' rim fades 5 % of a view that is filled; without the places near a cube's edges it is a larger share.
 		judge(describe(("cube turned by " + std::to_string(int(yaw))).c_str(), 200, 1, 2),
-			  bench().compare(readings, mapping, size, size, 24), 0.05);
+			  bench().compare(readings, mapping, size, size, 24), 0.06);
 	}
 }
 
