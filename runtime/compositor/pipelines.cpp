@@ -6,6 +6,8 @@
 #include "shaders/surface.vert.h"
 #include "shaders/surface_cube.frag.h"
 #include <array>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace arift
 {
@@ -260,6 +262,7 @@ Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const P
 	for (const PipelineKey &key : everyKey(optics))
 		if (!usual_.contains(key)) others_[key];
 	makesOthers_ = std::jthread([this, &gpu, &optics](const std::stop_token &stop) {
+		::setpriority(PRIO_PROCESS, id_t(::gettid()), 19); // images are shown meanwhile
 		std::optional<Factory> other;
 		for (auto &[key, later] : others_) {
 			if (stop.stop_requested()) return;
