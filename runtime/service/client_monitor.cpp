@@ -24,7 +24,8 @@ void Client::answer(const ipc::GetStatus &message)
 	opened.describeHeadset(status);
 	status["input"] = describeInput(world_.config.input);
 	world_.describeClients(status["clients"] = nlohmann::json::array());
-	const std::string text = status.dump();
+	// Names come from applications and devices: what is no UTF-8 in them must not keep the rest from being told.
+	const std::string text = status.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 	const UniqueFd memory = ipc::makeSealedCopy("arift-status", std::as_bytes(std::span(text)));
 	ipc::Status answer;
 	answer.size = text.size();
