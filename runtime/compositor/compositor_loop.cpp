@@ -1,15 +1,9 @@
 #include "runtime/compositor/compositor_loop.h"
 #include "runtime/base/log.h"
-#include <algorithm>
 #include <ctime>
 
 namespace arift
 {
-
-namespace
-{
-
-} // namespace
 
 double processSeconds()
 {

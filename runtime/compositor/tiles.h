@@ -75,7 +75,7 @@ struct TileDraw {
 	uint32_t band = 0;
 	FrameVector<PixelRect> rects; ///< do not overlap
 };
-/// Over: what is drawn already stays, and layers are drawn over it.
+/// What a plan finds in its place. Kept: what is drawn already stays, and layers are drawn over it.
 enum class Base : uint8_t { replaced, kept };
 /// The draws of one eye in their order. `layers`: their coverage, bottom first; empty: this eye does not see it. `seen`: by tile, where the
 /// camera's image is asked for; empty: everywhere.
