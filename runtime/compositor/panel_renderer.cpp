@@ -18,8 +18,6 @@ using Stage = vk::PipelineStageFlagBits;
 using Type = vk::DescriptorType;
 using Usage = vk::ImageUsageFlagBits;
 
-constexpr vk::ImageSubresourceRange whole{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
-
 /// An image that is drawn, with what is needed to plan its drawing.
 struct Canvas {
 	Canvas(gpu::Device::Handles &gpu, const PanelOptics &optics, ViewGeometry view_, vk::Format format, vk::RenderPass renderPass)
@@ -34,7 +32,7 @@ struct Canvas {
 					  vk::SampleCountFlagBits::e1,
 					  vk::ImageTiling::eOptimal,
 					  Usage::eColorAttachment | Usage::eTransferSrc | Usage::eTransferDst}),
-		  view(gpu.device, {{}, *image.image, vk::ImageViewType::e2D, format, {}, whole}),
+		  view(gpu.device, {{}, *image.image, vk::ImageViewType::e2D, format, {}, gpu::wholeColour}),
 		  framebuffer(gpu.device, {{}, renderPass, *view, geometry.width, geometry.height, 1})
 	{
 		blacken(gpu);
@@ -51,13 +49,14 @@ private:
 	void blacken(gpu::Device::Handles &gpu) const
 	{
 		const auto change = [&](vk::AccessFlags done, vk::AccessFlags next, Layout from, Layout to) {
-			return vk::ImageMemoryBarrier{done, next, from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.image, whole};
+			return vk::ImageMemoryBarrier{
+				done, next, from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *image.image, gpu::wholeColour};
 		};
 		gpu.runOnce([&](const vk::raii::CommandBuffer &commands) {
 			commands.pipelineBarrier(Stage::eTopOfPipe, Stage::eTransfer, {}, {}, {},
 									 change({}, Access::eTransferWrite, Layout::eUndefined, Layout::eTransferDstOptimal));
 			commands.clearColorImage(*image.image, Layout::eTransferDstOptimal, vk::ClearColorValue(std::array{0.0f, 0.0f, 0.0f, 1.0f}),
-									 whole);
+									 gpu::wholeColour);
 			commands.pipelineBarrier(Stage::eTransfer, Stage::eBottomOfPipe, {}, {}, {},
 									 change(Access::eTransferWrite, {}, Layout::eTransferDstOptimal, Layout::eTransferSrcOptimal));
 		});
@@ -111,12 +110,13 @@ gpu::ImageSpec smallCube()
 } // namespace
 
 struct PanelRenderer::Implementation {
-	Implementation(gpu::Device &device_, const Rig &rig, VkFormat panelFormat);
+	Implementation(gpu::Device &device_, const Rig &rig, VkFormat panelFormat, Unready unready_);
 
 	void warmUp();
 	void draw(Canvas &canvas, const PanelInputs &inputs);
 	void record(Canvas &canvas, const PanelInputs &inputs, const Drawing &drawing);
-	void drawItems(const Drawing &drawing) const;
+	void drawItems(const Drawing &drawing);
+	vk::Pipeline pipelineOf(const PipelineKey &key);
 	void uploadCameras(const PanelInputs &inputs);
 	void bindTextures(size_t eye);
 	FrameVector<const LayerImages::Entry *> imagesOf(const Drawing &drawing) const;
@@ -127,6 +127,7 @@ struct PanelRenderer::Implementation {
 	gpu::Device::Handles &gpu;
 	PanelOptics optics;
 	VkFormat format;
+	Unready unready;
 	Pipelines pipelines;
 	Canvas panel, eyes;
 	vk::raii::Sampler linear, nearest;
@@ -148,11 +149,12 @@ struct PanelRenderer::Implementation {
 	const vk::raii::CommandBuffer &commands() const { return commandBuffers.front(); }
 };
 
-PanelRenderer::Implementation::Implementation(gpu::Device &device_, const Rig &rig, VkFormat panelFormat)
+PanelRenderer::Implementation::Implementation(gpu::Device &device_, const Rig &rig, VkFormat panelFormat, Unready unready_)
 	: device(device_),
 	  gpu(device.handles()),
 	  optics(rig),
 	  format(panelFormat),
+	  unready(unready_),
 	  pipelines(gpu, vk::Format(format), optics),
 	  panel(gpu, optics, panelGeometry(optics), vk::Format(format), pipelines.renderPass()),
 	  eyes(gpu, optics, eyesGeometry(optics), vk::Format(format), pipelines.renderPass()),
@@ -219,14 +221,23 @@ void PanelRenderer::Implementation::writeVertices(const Drawing &drawing)
 	if (!bytes.empty()) std::memcpy(vertices->bytes.data(), bytes.data(), bytes.size());
 }
 
-void PanelRenderer::Implementation::drawItems(const Drawing &drawing) const
+/// Null if what it draws is left out. What replaces everything below it cannot be: older images would be seen there.
+vk::Pipeline PanelRenderer::Implementation::pipelineOf(const PipelineKey &key)
+{
+	const bool canBeLeftOut = unready == Unready::leftOut && key.blend != Blend::replace && key.throughLens;
+	return canBeLeftOut ? pipelines.find(key) : pipelines.at(key);
+}
+
+void PanelRenderer::Implementation::drawItems(const Drawing &drawing)
 {
 	const LayerImages::Entry *none = layerImages.find(noImage);
 	constexpr shaders::LayerBlock unused{};
 	commands().bindVertexBuffers(0, *vertices->buffer, vk::DeviceSize(0));
 	for (const DrawItem &item : drawing.items) {
+		const vk::Pipeline pipeline = pipelineOf(item.pipeline);
+		if (!pipeline) continue;
 		const LayerImages::Entry *layer = item.image != 0 ? layerImages.find(item.image) : none;
-		commands().bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines.at(item.pipeline));
+		commands().bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
 		commands().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0,
 									  {*eyeSets[item.eyeBlock], *layer->sets[item.arrayIndex]}, {});
 		if (item.pipeline.surface != Surface::none) {
@@ -306,8 +317,8 @@ ReadbackImage PanelRenderer::Implementation::read(const Canvas &canvas)
 	return {extent.width, extent.height, format, {buffer.bytes.begin(), buffer.bytes.end()}};
 }
 
-PanelRenderer::PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat format)
-	: implementation_(std::make_unique<Implementation>(device, rig, format))
+PanelRenderer::PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat format, Unready unready)
+	: implementation_(std::make_unique<Implementation>(device, rig, format, unready))
 {
 }
 

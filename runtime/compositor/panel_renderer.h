@@ -21,12 +21,16 @@ struct ReadbackImage {
 	std::vector<std::byte> pixels;
 };
 
-/// Thread-bound. Builds every pipeline in its constructor.
+/// What becomes of a layer whose pipeline is not made yet, because it is drawn in a way that is not usual: the image is late, or is shown
+/// without it.
+enum class Unready { waitedFor, leftOut };
+
+/// Thread-bound. Builds the usual pipelines in its constructor.
 class PanelRenderer
 {
 public:
 	/// `format` of the panel image: VK_FORMAT_R8G8B8A8_SRGB, or VK_FORMAT_R16G16B16A16_UNORM (linear light) for measurements.
-	PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat format = VK_FORMAT_R8G8B8A8_SRGB);
+	PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat format = VK_FORMAT_R8G8B8A8_SRGB, Unready unready = Unready::waitedFor);
 	~PanelRenderer();
 
 	/// Draws what is usual once: software renderers compile a pipeline when it is first drawn with a kind of texture, which costs a frame.

@@ -6,6 +6,7 @@
 #include "shaders/surface.vert.h"
 #include "shaders/surface_cube.frag.h"
 #include <array>
+#include <memory>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -121,32 +122,61 @@ vk::PipelineColorBlendAttachmentState blendState(Blend blend)
 	return {false, Factor::eOne, Factor::eZero, vk::BlendOp::eAdd, Factor::eOne, Factor::eZero, vk::BlendOp::eAdd, all};
 }
 
-struct Factory {
-	const gpu::Device::Handles &gpu;
-	const PanelOptics &optics;
-	vk::PipelineLayout layout;
-	vk::RenderPass renderPass;
-	vk::raii::ShaderModule vertex = module(panelVertexShader), fragment = module(panelFragmentShader);
-	vk::raii::ShaderModule surfaceVertex = module(surfaceVertexShader), surfaceFragment = module(surfaceFragmentShader);
-	vk::raii::ShaderModule cubeFragment = module(cubeFragmentShader);
-	vk::raii::PipelineCache cache{gpu.device, vk::PipelineCacheCreateInfo{}};
+/// What can lie behind layers.
+std::vector<PipelineKey> backdrops(const PanelOptics &optics)
+{
+	std::vector<PipelineKey> keys{{.background = Background::pattern}, {.background = Background::unseen}};
+	for (uint32_t camera = 0; camera < optics.cameras.size(); ++camera)
+		keys.push_back({.background = Background::camera, .camera = camera});
+	return keys;
+}
 
-	template <size_t words> vk::raii::ShaderModule module(const uint32_t (&code)[words]) const
-	{
-		return {gpu.device, vk::ShaderModuleCreateInfo{{}, sizeof code, code}};
+} // namespace
+
+std::vector<PipelineKey> usualKeys(const PanelOptics &optics)
+{
+	std::vector<PipelineKey> keys{{}, {.blend = Blend::clear}};
+	for (PipelineKey key : backdrops(optics)) {
+		keys.push_back(key);
+		// A layer over everything is drawn with what is behind it.
+		if (key.background != Background::pattern) {
+			keys.push_back(key);
+			keys.back().layer = Cover::fully;
+			keys.back().layerEncoded = true;
+		}
+		keys.push_back(key);
+		keys.back().blend = Blend::under;
+		// As a layer: what the cameras do not see is the same picture's fill.
+		for (const Look look : {Look::faded, Look::styled}) {
+			if (key.background == Background::unseen) break;
+			keys.push_back(key);
+			keys.back().blend = Blend::over;
+			keys.back().look = look;
+		}
 	}
-	vk::ShaderModule fragmentOf(Surface surface) const
+	for (const Cover cover : {Cover::fully, Cover::opaque}) keys.push_back({.layer = cover, .layerEncoded = true});
+	for (const Cover cover : {Cover::fully, Cover::partly}) keys.push_back({.blend = Blend::over, .layer = cover, .layerEncoded = true});
+	keys.push_back({.blend = Blend::over, .layer = Cover::partly, .layerEncoded = true, .keyed = true});
+	// Layers that are not plain are drawn over what is there.
+	for (const Surface surface : {Surface::flat, Surface::cylinder, Surface::sphere, Surface::cube})
+		keys.push_back({.blend = Blend::over, .layer = Cover::partly, .surface = surface});
+	return keys;
+}
+
+class Pipelines::Factory
+{
+public:
+	Factory(const gpu::Device::Handles &gpu, const PanelOptics &optics, vk::PipelineLayout layout, vk::RenderPass renderPass)
+		: gpu_(gpu), optics_(optics), layout_(layout), renderPass_(renderPass)
 	{
-		if (surface == Surface::none) return *fragment;
-		return surface == Surface::cube ? *cubeFragment : *surfaceFragment;
 	}
 
 	vk::raii::Pipeline make(const PipelineKey &key) const
 	{
-		const vk::ShaderModule vertexModule = key.surface == Surface::none ? *vertex : *surfaceVertex;
-		const ViewGeometry geometry = key.throughLens ? panelGeometry(optics) : eyesGeometry(optics);
+		const vk::ShaderModule vertexModule = key.surface == Surface::none ? *vertex_ : *surfaceVertex_;
+		const ViewGeometry geometry = key.throughLens ? panelGeometry(optics_) : eyesGeometry(optics_);
 		const VertexConstants size{2.0f / float(geometry.width), 2.0f / float(geometry.height), float(geometry.eyes[0].perPixel.x)};
-		const Constants constants = constantsFor(optics, geometry, key);
+		const Constants constants = constantsFor(optics_, geometry, key);
 		const auto sizeEntries = entriesOf<VertexConstants>();
 		const auto entries = entriesOf<Constants>();
 		const vk::SpecializationInfo bySize{uint32_t(sizeEntries.size()), sizeEntries.data(), sizeof size, &size};
@@ -166,89 +196,31 @@ struct Factory {
 		const vk::PipelineColorBlendStateCreateInfo blending{{}, false, {}, attachment};
 		const std::array dynamics{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
 		const vk::PipelineDynamicStateCreateInfo dynamic{{}, dynamics};
-		return {gpu.device,
-				cache,
-				{{}, stages, &input, &assembly, nullptr, &viewport, &raster, &samples, nullptr, &blending, &dynamic, layout, renderPass}};
+		return {gpu_.device,
+				cache_,
+				{{}, stages, &input, &assembly, nullptr, &viewport, &raster, &samples, nullptr, &blending, &dynamic, layout_, renderPass_}};
 	}
+
+private:
+	template <size_t words> vk::raii::ShaderModule module(const uint32_t (&code)[words]) const
+	{
+		return {gpu_.device, vk::ShaderModuleCreateInfo{{}, sizeof code, code}};
+	}
+	vk::ShaderModule fragmentOf(Surface surface) const
+	{
+		if (surface == Surface::none) return *fragment_;
+		return surface == Surface::cube ? *cubeFragment_ : *surfaceFragment_;
+	}
+
+	const gpu::Device::Handles &gpu_;
+	const PanelOptics &optics_;
+	vk::PipelineLayout layout_;
+	vk::RenderPass renderPass_;
+	vk::raii::ShaderModule vertex_ = module(panelVertexShader), fragment_ = module(panelFragmentShader);
+	vk::raii::ShaderModule surfaceVertex_ = module(surfaceVertexShader), surfaceFragment_ = module(surfaceFragmentShader);
+	vk::raii::ShaderModule cubeFragment_ = module(cubeFragmentShader);
+	vk::raii::PipelineCache cache_{gpu_.device, vk::PipelineCacheCreateInfo{}};
 };
-
-/// What can lie behind layers, for one kind of view.
-std::vector<PipelineKey> backdrops(const PanelOptics &optics, bool throughLens)
-{
-	std::vector<PipelineKey> keys{{.background = Background::pattern, .throughLens = throughLens},
-								  {.background = Background::unseen, .throughLens = throughLens}};
-	for (uint32_t camera = 0; camera < optics.cameras.size(); ++camera)
-		for (const bool encoded : {false, true})
-			keys.push_back({.background = Background::camera, .camera = camera, .encoded = encoded, .throughLens = throughLens});
-	return keys;
-}
-
-/// `key` with a layer of every kind.
-void addLayers(std::vector<PipelineKey> &keys, PipelineKey key, std::initializer_list<Cover> covers)
-{
-	for (const Cover cover : covers)
-		for (const bool encoded : {false, true}) {
-			key.layer = cover;
-			key.layerEncoded = encoded;
-			keys.push_back(key);
-		}
-}
-
-/// Layers that are not plain are drawn over what is there, as is all else where alpha has to be known.
-void addSurfaces(std::vector<PipelineKey> &keys, bool throughLens)
-{
-	for (const Surface surface : {Surface::flat, Surface::cylinder, Surface::sphere, Surface::cube})
-		keys.push_back({.blend = Blend::over, .layer = Cover::partly, .throughLens = throughLens, .surface = surface});
-	keys.push_back({.blend = Blend::clear, .throughLens = throughLens});
-}
-
-/// The cameras' image as a layer: what they do not see is the same picture's fill.
-void addLooks(std::vector<PipelineKey> &keys, PipelineKey backdrop)
-{
-	if (backdrop.background == Background::unseen) return;
-	backdrop.blend = Blend::over;
-	for (const Look look : {Look::faded, Look::styled}) {
-		backdrop.look = look;
-		keys.push_back(backdrop);
-	}
-}
-
-/// Every combination TileDraw and the cameras' formats can ask for.
-std::vector<PipelineKey> everyKey(const PanelOptics &optics)
-{
-	std::vector<PipelineKey> keys;
-	for (const bool throughLens : {true, false}) {
-		for (PipelineKey key : backdrops(optics, throughLens)) {
-			keys.push_back(key);
-			addLooks(keys, key);
-			if (throughLens) addLayers(keys, key, {Cover::fully});
-			for (const Blend blend : {Blend::add, Blend::under}) {
-				key.blend = blend;
-				keys.push_back(key);
-			}
-		}
-		keys.push_back({.throughLens = throughLens});
-		addSurfaces(keys, throughLens);
-		addLayers(keys, {.blend = Blend::over, .throughLens = throughLens}, {Cover::partly});
-		addLayers(keys, {.blend = Blend::over, .throughLens = throughLens, .keyed = true}, {Cover::partly});
-	}
-	addLayers(keys, {}, {Cover::fully, Cover::opaque});
-	addLayers(keys, {.blend = Blend::over}, {Cover::fully});
-	return keys;
-}
-
-} // namespace
-
-std::vector<PipelineKey> usualKeys(const PanelOptics &optics)
-{
-	std::vector<PipelineKey> keys = everyKey(optics);
-	std::erase_if(keys, [](const PipelineKey &key) {
-		const bool rareLayer =
-			key.layer != Cover::none && key.surface == Surface::none && (!key.layerEncoded || key.background == Background::pattern);
-		return !key.throughLens || key.encoded || key.blend == Blend::add || rareLayer;
-	});
-	return keys;
-}
 
 Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const PanelOptics &optics)
 	: renderPass_(makeRenderPass(gpu, format)),
@@ -257,29 +229,62 @@ Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const P
 	  surfaceSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBufferDynamic})),
 	  layout_(makeLayout(gpu, {*eyeSetLayout_, *layerSetLayout_, *surfaceSetLayout_}))
 {
-	const Factory factory{gpu, optics, *layout_, *renderPass_};
-	for (const PipelineKey &key : usualKeys(optics)) usual_.emplace(key, factory.make(key));
-	for (const PipelineKey &key : everyKey(optics))
-		if (!usual_.contains(key)) others_[key];
-	makesOthers_ = std::jthread([this, &gpu, &optics](const std::stop_token &stop) {
-		::setpriority(PRIO_PROCESS, id_t(::gettid()), 19); // images are shown meanwhile
-		std::optional<Factory> other;
-		for (auto &[key, later] : others_) {
-			if (stop.stop_requested()) return;
-			try {
-				if (!other) other.emplace(Factory{gpu, optics, *layout_, *renderPass_});
-				later.promise.set_value(other->make(key));
-			} catch (...) {
-				later.promise.set_exception(std::current_exception());
-			}
-		}
-	});
+	const auto factory = std::make_shared<const Factory>(gpu, optics, *layout_, *renderPass_);
+	for (const PipelineKey &key : usualKeys(optics)) usual_.emplace(key, factory->make(key));
+	makesOthers_ = std::jthread([this, factory](const std::stop_token &stop) { makeOthers(stop, *factory); });
 }
 
-vk::Pipeline Pipelines::at(const PipelineKey &key) const
+/// Images are shown meanwhile: the thread leaves the processors to them.
+void Pipelines::makeOthers(const std::stop_token &stop, const Factory &factory)
+{
+	::setpriority(PRIO_PROCESS, id_t(::gettid()), 19);
+	for (;;) {
+		PipelineKey key;
+		{
+			auto others = others_.lock();
+			if (!others.wait(stop, [](const Others &now) { return !now.wanted.empty(); })) return;
+			key = others->wanted.front();
+			others->wanted.pop_front();
+		}
+		Other made;
+		try {
+			made.pipeline = factory.make(key);
+		} catch (...) {
+			made.failure = std::current_exception();
+		}
+		others_.update([&](Others &others) { others.pipelines.at(key) = std::move(made); });
+	}
+}
+
+vk::Pipeline Pipelines::Other::get() const
+{
+	if (failure) std::rethrow_exception(failure);
+	return *pipeline;
+}
+
+vk::Pipeline Pipelines::find(const PipelineKey &key)
 {
 	const auto usual = usual_.find(key);
-	return usual != usual_.end() ? *usual->second : *others_.at(key).pipeline.get();
+	if (usual != usual_.end()) return *usual->second;
+	{
+		const auto others = others_.lock();
+		const auto other = others->pipelines.find(key);
+		if (other != others->pipelines.end()) return other->second.get();
+	}
+	others_.update([&](Others &others) {
+		others.pipelines[key];
+		others.wanted.push_back(key);
+	});
+	return nullptr;
+}
+
+vk::Pipeline Pipelines::at(const PipelineKey &key)
+{
+	if (const vk::Pipeline pipeline = find(key)) return pipeline;
+	auto others = others_.lock();
+	const Other &other = others->pipelines.at(key);
+	others.wait({}, [&](const Others &) { return other.isReady(); });
+	return other.get();
 }
 
 } // namespace arift

@@ -1,10 +1,12 @@
-// Every pipeline the renderer can need: the usual ones are made before the first frame, the others by a thread of their own meanwhile.
+// The renderer's pipelines: the usual ones are made before the first frame, any other by a thread of its own once it is asked for.
 #pragma once
+#include "runtime/base/guarded.h"
 #include "runtime/compositor/panel_inputs.h"
 #include "runtime/compositor/panel_optics.h"
 #include "runtime/gpu/handles.h"
 #include <compare>
-#include <future>
+#include <deque>
+#include <exception>
 #include <map>
 #include <thread>
 
@@ -48,21 +50,32 @@ public:
 	vk::DescriptorSetLayout eyeSetLayout() const { return *eyeSetLayout_; }
 	vk::DescriptorSetLayout layerSetLayout() const { return *layerSetLayout_; }
 	vk::DescriptorSetLayout surfaceSetLayout() const { return *surfaceSetLayout_; }
-	/// One that is not usual may have to be waited for in the first second or two. Throws vk::SystemError where it could not be made.
-	vk::Pipeline at(const PipelineKey &key) const;
+	/// Null as long as it is being made, which begins when it is first asked for. Both throw vk::SystemError where it could not be made.
+	vk::Pipeline find(const PipelineKey &key);
+	/// Waits until it is made.
+	vk::Pipeline at(const PipelineKey &key);
 
 private:
-	/// A pipeline that is being made.
-	struct Later {
-		std::promise<vk::raii::Pipeline> promise;
-		std::shared_future<vk::raii::Pipeline> pipeline = promise.get_future();
+	struct Other {
+		vk::raii::Pipeline pipeline{nullptr};
+		std::exception_ptr failure;
+
+		bool isReady() const { return *pipeline || failure; }
+		vk::Pipeline get() const;
 	};
+	/// Those that were asked for; what is wanted is made in this order.
+	struct Others {
+		std::map<PipelineKey, Other> pipelines;
+		std::deque<PipelineKey> wanted;
+	};
+	class Factory;
+	void makeOthers(const std::stop_token &stop, const Factory &factory);
 
 	vk::raii::RenderPass renderPass_;
 	vk::raii::DescriptorSetLayout eyeSetLayout_, layerSetLayout_, surfaceSetLayout_;
 	vk::raii::PipelineLayout layout_;
 	std::map<PipelineKey, vk::raii::Pipeline> usual_;
-	std::map<PipelineKey, Later> others_;
+	Guarded<Others> others_;
 	std::jthread makesOthers_;
 };
 

@@ -28,7 +28,7 @@ Composition::~Composition() = default;
 
 void Composition::makeRenderer()
 {
-	renderer_ = std::make_unique<PanelRenderer>(device_, purpose_.rig);
+	renderer_ = std::make_unique<PanelRenderer>(device_, purpose_.rig, VK_FORMAT_R8G8B8A8_SRGB, Unready::leftOut);
 	renderer_->warmUp();
 }
 

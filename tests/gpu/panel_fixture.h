@@ -40,7 +40,10 @@ private:
 class PanelTest : public testing::Test
 {
 protected:
-	PanelTest() : rig(plainRig()), renderer(device, rig), inputs(inputsAtRest(rig)) {}
+	explicit PanelTest(Unready unready = Unready::waitedFor)
+		: rig(plainRig()), renderer(device, rig, VK_FORMAT_R8G8B8A8_SRGB, unready), inputs(inputsAtRest(rig))
+	{
+	}
 	~PanelTest() override { EXPECT_EQ(device.validationMessages(), 0u); }
 
 	/// A frame whose every byte is what `value` says for x (in bytes) and y.

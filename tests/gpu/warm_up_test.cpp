@@ -81,5 +81,21 @@ TEST_F(WarmUp, WithoutItFramesCompileOnASoftwareRenderer)
 	EXPECT_GT(compiledBytes(), before) << "the count counts";
 }
 
+struct Unusual : PanelTest {
+	Unusual() : PanelTest(Unready::leftOut) {}
+};
+
+TEST_F(Unusual, ALayerIsLeftOutUntilItsPipelineIsMadeAndNeverWaitedFor)
+{
+	seeGrey(51);
+	render();
+	const std::array<int, 3> world = at(centreX, centreY);
+	addUniformLayer({102, 51, 153, 255}, XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT).key = KeyedOut{}; // and not sRGB encoded
+	render();
+	EXPECT_EQ(at(centreX, centreY), world) << "what is first asked for cannot be there";
+	for (const XrTime end = realTime() + 60 * second; at(centreX, centreY) == world && realTime() < end;) render();
+	expectNear(at(centreX, centreY), {0.4, 0.2, 0.6});
+}
+
 } // namespace
 } // namespace arift
