@@ -177,7 +177,7 @@ changed_since() {
 stage_tidy() {
 	local limit=180 base commit result
 	# It reads what the compiler would: generated and precompiled headers too.
-	build asan arift_gtest_headers arift_panel >"$work/tidy.build" 2>&1 || { tail -20 "$work/tidy.build"; return 1; }
+	build tidy arift_shaders arift_gtest_headers runtime/gpu/CMakeFiles/arift_gpu.dir/cmake_pch.hxx.pch >"$work/tidy.build" 2>&1 || { tail -20 "$work/tidy.build"; return 1; }
 	if $tidy_all; then
 		limit=86400
 		sources | grep '\.cpp$' >"$work/tidy.files"
@@ -191,7 +191,7 @@ stage_tidy() {
 	: >"$work/tidy.unread"
 	deadline=$(($(date +%s) + limit)) unread=$work/tidy.unread xargs -P "$jobs" -n 1 bash -c '
 		if [ "$(date +%s)" -gt "$deadline" ]; then echo "$0" >>"$unread"; else
-			clang-tidy-14 --quiet -p build/asan "$0" 2>/dev/null
+			clang-tidy-14 --quiet -p build/tidy "$0" 2>/dev/null
 		fi' <"$work/tidy.files"
 	result=$?
 	sed 's/^/tidy: not read for want of time: /' "$work/tidy.unread"

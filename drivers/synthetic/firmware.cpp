@@ -10,11 +10,10 @@ namespace arift::synthetic
 namespace
 {
 
-constexpr double gravity = 9.80665;
 constexpr double fullScale = 32768; // of the converters
 // Noise densities of the MPU-6000: 0.005 deg/s/sqrt(Hz) and 400 ug/sqrt(Hz), white up to half of 1 kHz, then its 256 Hz low-pass.
 const double angularVelocityDeviation = 0.005 * M_PI / 180 * std::sqrt(500.0);
-const double accelerationDeviation = 400e-6 * gravity * std::sqrt(500.0);
+const double accelerationDeviation = 400e-6 * standardGravity * std::sqrt(500.0);
 const double lowPass = 1 - std::exp(-2 * M_PI * 256 * 1e-3);
 constexpr double biasWalkPerTick = 1e-6; // rad/s per square root of a millisecond: about 0.1 deg/s in an hour
 constexpr uint32_t fieldPeriod = 5;      // ticks: at most 220 Hz
@@ -40,7 +39,7 @@ void Firmware::tick(const PhysicalSample &sample)
 Firmware::Sums Firmware::measure(const PhysicalSample &sample)
 {
 	const double angularVelocityLimit = range_.degreesPerSecond * M_PI / 180 / dk1::unit;
-	const double accelerationLimit = range_.accelerationG * gravity / dk1::unit;
+	const double accelerationLimit = range_.accelerationG * standardGravity / dk1::unit;
 	const auto convert = [&](const glm::dvec3 &value, double limit) {
 		const double step = limit / fullScale;
 		const glm::dvec3 counts = value / dk1::unit / step;

@@ -1,4 +1,5 @@
 #include "drivers/synthetic/motion.h"
+#include "runtime/device/imu_tracker.h"
 #include <algorithm>
 #include <array>
 #include <random>
@@ -8,8 +9,6 @@ namespace arift::synthetic
 
 namespace
 {
-
-constexpr double gravity = 9.80665;
 
 /// A value and its first two derivatives by time.
 struct Jet {
@@ -153,7 +152,7 @@ std::unique_ptr<HeadMotion> makeNatural(uint64_t seed, double delay, const glm::
 ImuTruth imuTruth(const HeadState &head, const XrPosef &imuInHead)
 {
 	const glm::dvec3 lever = toGlm(imuInHead.position);
-	const glm::dvec3 force = glm::conjugate(head.orientation) * (head.acceleration + glm::dvec3{0, gravity, 0}) +
+	const glm::dvec3 force = glm::conjugate(head.orientation) * (head.acceleration + glm::dvec3{0, standardGravity, 0}) +
 							 glm::cross(head.angularAcceleration, lever) +
 							 glm::cross(head.angularVelocity, glm::cross(head.angularVelocity, lever));
 	const glm::dquat headInImu = glm::conjugate(toGlm(imuInHead.orientation));

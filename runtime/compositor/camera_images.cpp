@@ -13,8 +13,6 @@ using Layout = vk::ImageLayout;
 using Stage = vk::PipelineStageFlagBits;
 using Usage = vk::ImageUsageFlagBits;
 
-constexpr vk::ImageSubresourceRange whole{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
-
 vk::ImageCreateInfo textureInfo(vk::Format format, uint32_t width, uint32_t height)
 {
 	return {{},
@@ -38,7 +36,7 @@ void beginCopy(const vk::raii::CommandBuffer &commands, vk::Image image)
 													VK_QUEUE_FAMILY_IGNORED,
 													VK_QUEUE_FAMILY_IGNORED,
 													image,
-													whole});
+													gpu::wholeColour});
 }
 
 void endCopy(const vk::raii::CommandBuffer &commands, vk::Image image)
@@ -46,7 +44,7 @@ void endCopy(const vk::raii::CommandBuffer &commands, vk::Image image)
 	commands.pipelineBarrier(Stage::eTransfer, Stage::eFragmentShader, {}, {}, {},
 							 vk::ImageMemoryBarrier{Access::eTransferWrite, Access::eShaderRead, Layout::eTransferDstOptimal,
 													Layout::eShaderReadOnlyOptimal, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
-													whole});
+													gpu::wholeColour});
 }
 
 void copy(const vk::raii::CommandBuffer &commands, vk::Buffer buffer, const Texture &texture)
@@ -61,7 +59,7 @@ void darken(gpu::Device::Handles &gpu, const Texture &texture)
 {
 	gpu.runOnce([&](const auto &commands) {
 		beginCopy(commands, *texture.image.image);
-		commands.clearColorImage(*texture.image.image, Layout::eTransferDstOptimal, vk::ClearColorValue{}, whole);
+		commands.clearColorImage(*texture.image.image, Layout::eTransferDstOptimal, vk::ClearColorValue{}, gpu::wholeColour);
 		endCopy(commands, *texture.image.image);
 	});
 }
@@ -70,7 +68,7 @@ void darken(gpu::Device::Handles &gpu, const Texture &texture)
 
 Texture::Texture(const gpu::Device::Handles &gpu, vk::Format format, uint32_t w, uint32_t h)
 	: image(gpu, textureInfo(format, w, h)),
-	  view(gpu.device, {{}, *image.image, vk::ImageViewType::e2D, format, {}, whole}),
+	  view(gpu.device, {{}, *image.image, vk::ImageViewType::e2D, format, {}, gpu::wholeColour}),
 	  width(w),
 	  height(h)
 {

@@ -10,8 +10,6 @@ using Access = vk::AccessFlagBits;
 using Layout = vk::ImageLayout;
 using Stage = vk::PipelineStageFlagBits;
 
-constexpr vk::ImageSubresourceRange whole{vk::ImageAspectFlagBits::eColor, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
-
 vk::raii::DescriptorPool poolFor(const gpu::Device::Handles &gpu, uint32_t sets)
 {
 	const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, sets};
@@ -103,7 +101,7 @@ void LayerImages::acquire(const vk::raii::CommandBuffer &commands, std::span<con
 							VK_QUEUE_FAMILY_EXTERNAL,
 							gpu_.queueFamily,
 							entry->image,
-							whole});
+							gpu::wholeColour});
 	if (!barriers.empty()) commands.pipelineBarrier(Stage::eTopOfPipe, Stage::eFragmentShader, {}, {}, {}, barriers);
 }
 
@@ -118,7 +116,7 @@ void LayerImages::release(const vk::raii::CommandBuffer &commands, std::span<con
 							gpu_.queueFamily,
 							VK_QUEUE_FAMILY_EXTERNAL,
 							entry->image,
-							whole});
+							gpu::wholeColour});
 	if (!barriers.empty()) commands.pipelineBarrier(Stage::eFragmentShader, Stage::eBottomOfPipe, {}, {}, {}, barriers);
 }
 

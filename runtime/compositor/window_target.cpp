@@ -22,7 +22,6 @@ using Layout = vk::ImageLayout;
 using Stage = vk::PipelineStageFlagBits;
 
 constexpr uint64_t acquireLimitNs = 50'000'000;
-constexpr vk::ImageSubresourceRange whole{vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1};
 constexpr vk::ImageSubresourceLayers colourLayer{vk::ImageAspectFlagBits::eColor, 0, 0, 1};
 
 /// Owns what malloc made, as xcb hands it out.
@@ -231,13 +230,13 @@ private:
 	{
 		const vk::raii::CommandBuffer &commands = commands_.front();
 		const auto barrier = [&](Access from, Access to, Layout before, Layout after) {
-			commands.pipelineBarrier(
-				Stage::eTransfer, Stage::eTransfer, {}, {}, {},
-				vk::ImageMemoryBarrier{from, to, before, after, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, target, whole});
+			commands.pipelineBarrier(Stage::eTransfer, Stage::eTransfer, {}, {}, {},
+									 vk::ImageMemoryBarrier{from, to, before, after, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED,
+															target, gpu::wholeColour});
 		};
 		commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
 		barrier({}, Access::eTransferWrite, Layout::eUndefined, Layout::eTransferDstOptimal);
-		commands.clearColorImage(target, Layout::eTransferDstOptimal, vk::ClearColorValue{}, whole);
+		commands.clearColorImage(target, Layout::eTransferDstOptimal, vk::ClearColorValue{}, gpu::wholeColour);
 		barrier(Access::eTransferWrite, Access::eTransferWrite, Layout::eTransferDstOptimal, Layout::eTransferDstOptimal);
 		const std::array from{vk::Offset3D{}, vk::Offset3D{int(extent.width), int(extent.height), 1}};
 		commands.blitImage(image, Layout::eTransferSrcOptimal, target, Layout::eTransferDstOptimal,

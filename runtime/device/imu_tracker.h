@@ -10,6 +10,8 @@
 namespace arift
 {
 
+constexpr double standardGravity = 9.80665; ///< m/s^2
+
 /// Inertial measurement in the tracker's own axes, before calibration.
 struct ImuSample {
 	int64_t tick = 0;           ///< device ticks at the end of the interval it stands for, unwrapped, never falling

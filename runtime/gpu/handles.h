@@ -13,7 +13,8 @@ namespace arift::gpu
 {
 
 /// Every level and layer of a colour image.
-inline constexpr vk::ImageSubresourceRange wholeColour{vk::ImageAspectFlagBits::eColor, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+inline constexpr vk::ImageSubresourceRange wholeColour{vk::ImageAspectFlagBits::eColor, 0, VK_REMAINING_MIP_LEVELS, 0,
+													   VK_REMAINING_ARRAY_LAYERS};
 
 /// Declared in the order in which they are made; destroyed the other way round.
 struct Device::Handles {

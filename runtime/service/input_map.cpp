@@ -1,15 +1,14 @@
 #include "runtime/service/input_map.h"
 #include <algorithm>
-#include <numbers>
+#include <glm/trigonometric.hpp>
 
 namespace arift
 {
 namespace
 {
 
-constexpr float degree = float(std::numbers::pi / 180);
 /// A mouse moves its ray within what is seen: about as far as the lenses show.
-constexpr float widestAim = 40 * degree;
+constexpr float widestAim = glm::radians(40.0f);
 /// Where a hand is held, as seen by the person: metres.
 constexpr float handAside = 0.2f, handBelow = 0.3f, handAhead = 0.4f;
 
@@ -21,7 +20,7 @@ InputMap::InputMap(InputSettings settings) : settings_(std::move(settings)) {}
 
 void InputMap::aim(const XrVector2f &motion)
 {
-	const float perCount = float(settings_.mouseSpeed) * degree;
+	const float perCount = glm::radians(float(settings_.mouseSpeed));
 	aim_.x = std::clamp(aim_.x + motion.x * perCount, -widestAim, widestAim);
 	aim_.y = std::clamp(aim_.y + motion.y * perCount, -widestAim, widestAim);
 }

@@ -6,7 +6,7 @@ namespace
 {
 
 /// How long xrEndFrame waits; the frame is left out after that.
-constexpr XrDuration workLimit = second;
+constexpr XrDuration frameLimit = second;
 
 class Fence final : public GlWork
 {
@@ -17,7 +17,7 @@ public:
 private:
 	Outcome finish() override
 	{
-		switch (sync_ ? graphics_.gl.ClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, uint64_t(workLimit)) : GL_WAIT_FAILED) {
+		switch (sync_ ? graphics_.gl.ClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, uint64_t(frameLimit)) : GL_WAIT_FAILED) {
 		case GL_ALREADY_SIGNALED:
 		case GL_CONDITION_SATISFIED: return Outcome::done;
 		case GL_TIMEOUT_EXPIRED: return Outcome::notYet;

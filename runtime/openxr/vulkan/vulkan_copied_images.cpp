@@ -143,9 +143,9 @@ VulkanCopiedImages::VulkanCopiedImages(VulkanDevice &device, const gpu::ImageSpe
 VulkanCopiedImages::~VulkanCopiedImages()
 {
 	for (const Entry &entry : entries_)
-		if (entry.lastWork && entry.lastWork->wait(workLimit) == Completion::Outcome::notYet) {
+		if (entry.lastWork && entry.lastWork->wait(endLimit) == Completion::Outcome::notYet) {
 			log::error("the application's GPU still works on a swapchain {} s after its last use; its images are left alone",
-					   inSeconds(workLimit));
+					   inSeconds(endLimit));
 			for (Entry &abandoned : entries_) new std::shared_ptr(std::move(abandoned.image)); // never freed
 			return;
 		}

@@ -39,9 +39,9 @@ VulkanImages::VulkanImages(VulkanDevice &device, const gpu::ImageSpec &spec, con
 VulkanImages::~VulkanImages()
 {
 	for (const Image &image : images_)
-		if (image.lastWork && image.lastWork->wait(workLimit) == Completion::Outcome::notYet) {
+		if (image.lastWork && image.lastWork->wait(endLimit) == Completion::Outcome::notYet) {
 			log::error("the application's GPU still works on a swapchain {} s after its last use; its images are left alone",
-					   inSeconds(workLimit));
+					   inSeconds(endLimit));
 			return;
 		}
 	release();

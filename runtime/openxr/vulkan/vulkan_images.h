@@ -6,7 +6,7 @@ namespace arift::openxr
 {
 
 /// How long (real time) the end of a swapchain waits for the work on it.
-constexpr XrDuration workLimit = second;
+constexpr XrDuration endLimit = second;
 constexpr VkAccessFlags everyAccess = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
 /// SwapchainImages::describe for images that are `images`.
 void describeImages(std::span<XrSwapchainImageBaseHeader *const> elements, const std::vector<VkImage> &images);

@@ -198,7 +198,8 @@ TEST_F(CompositorTest, SourcesAreDrawnInTheirOrderWheneverTheyCame)
 	add(5, 9);
 	run(2);
 	std::vector<uint64_t> images;
-	for (const PanelLayer &layer : drawn().back().inputs.layers) images.push_back(layer.quad[0]->texture.image);
+	const auto drawnLast = drawn().back();
+	for (const PanelLayer &layer : drawnLast.inputs.layers) images.push_back(layer.quad[0]->texture.image);
 	EXPECT_EQ(images, (std::vector<uint64_t>{2, 4, 3, 1, 5}));
 	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ADDITIVE);
 }
