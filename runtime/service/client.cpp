@@ -165,8 +165,14 @@ void Client::beginSession(uint32_t number, ipc::Socket channel)
 		name = about.name;
 	});
 	// Whoever changes the settings from now on finds the session; who did before changed what is asked for here.
-	session_->present([&](Presentation &presentation) { presentation.forced = world_.settingsOf(name).passthrough; });
+	present(*session_, name);
 	passthroughMaps_ = std::make_unique<PassthroughMaps>(device_, compositor_);
+}
+
+/// As the settings are by then: of two who change them, the later one's hold.
+void Client::present(Session &session, const std::string &application) const
+{
+	session.present([&](Presentation &presentation) { presentation.forced = world_.settingsOf(application).passthrough; });
 }
 
 /// Where there is no memory for it, nothing is proven: images are copied.

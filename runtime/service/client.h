@@ -60,6 +60,7 @@ private:
 	void refuse(const ipc::Header &request, XrResult result, const std::string &text);
 	void stopSession();
 	void beginSession(uint32_t number, ipc::Socket channel);
+	void present(Session &session, const std::string &application) const;
 	ipc::Sharing sharingFor(const ipc::CreateSession &message) const;
 	UniqueFd offerProbe(ipc::SessionCreated &created) const;
 	Session &sessionNumbered(uint32_t number);

@@ -100,7 +100,7 @@ void Client::answer(const ipc::ForcePassthrough &message)
 	const ForcedPassthrough forced{message.mode, {message.colour, message.tolerance, message.softness}, message.opacity};
 	world_.applicationSettings.update([&](ApplicationTable &table) { table[name].passthrough = forced; });
 	world_.forEachSession([&](const std::string &application, Session &session) {
-		if (application == name) session.present([&](Presentation &presentation) { presentation.forced = forced; });
+		if (application == name) present(session, name);
 	});
 	keep({"applications", name}, {{"passthrough", nameOf(forced.mode)},
 								  {"color", textOf(forced.key.colour)},

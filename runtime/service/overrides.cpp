@@ -62,8 +62,10 @@ void Overrides::keep(const std::vector<std::string> &table, const Values &values
 		if (!settings) throw InputError("{}: {} is not a table", file.string(), name);
 	}
 	for (const auto &[key, value] : values) put(*settings, key, value);
+	// Literal strings are not escaped: a name with an end of line in it would make the file unreadable.
+	toml::toml_formatter escaped(all, toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings);
 	std::ostringstream text;
-	text << header << '\n' << all << '\n';
+	text << header << '\n' << escaped << '\n';
 	std::error_code ignored;
 	fs::create_directories(file.parent_path(), ignored); // what is wrong shows when the file is written
 	replace(file, text.str());

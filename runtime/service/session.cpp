@@ -53,11 +53,12 @@ void Session::releaseIfComplete(State &state, Afterwards &afterwards)
 void Session::setRunning(bool running)
 {
 	Afterwards afterwards;
+	const auto shown = shown_.lock();
+	if (!running) shown->submission.reset();
 	state_.update([&](State &state) {
 		state.running = running;
 		if (running) state.pace = {}; // the pause before was no interval
 		if (running) return;
-		state.submission.reset();
 		state.newest.reset();
 		if (state.waiting) afterwards.ready = answer(state);
 		afterwards.released = std::exchange(state.hold, std::nullopt);
@@ -146,44 +147,45 @@ void Session::take(const ipc::WaitFrame &message)
 	finish(afterwards);
 }
 
-std::shared_ptr<const FrameContent> Session::presented(const State &state)
+std::shared_ptr<const FrameContent> Session::Shown::content() const
 {
-	return state.submission ? contentOf(*state.submission, state.submissionCame, state.presentation) : nullptr;
+	return submission ? contentOf(*submission, submissionCame, presentation) : nullptr;
+}
+
+/// What was shown before goes when the lock is gone.
+void Session::show(std::shared_ptr<const FrameContent> content)
+{
+	state_.update([&](State &state) { state.newest.swap(content); });
 }
 
 void Session::take(const ipc::Submission &message)
 {
 	Afterwards afterwards;
 	images_.fetch(message);
-	auto submission = std::make_shared<const ipc::Submission>(message);
-	std::shared_ptr<const FrameContent> before;
 	const XrTime now = clock_.now();
-	bool late = false;
+	const auto shown = shown_.lock();
+	uint64_t received = 0, relinquished = 0;
 	state_.update([&](State &state) {
-		late = message.frame <= state.received;
-		if (late) return;
-		state.received = message.frame;
-		if (message.frame > state.relinquished) {
-			state.submission.swap(submission);
-			state.submissionCame = now;
-			before = std::exchange(state.newest, presented(state));
-		}
-		releaseIfComplete(state, afterwards);
+		received = std::exchange(state.received, std::max(state.received, message.frame));
+		relinquished = state.relinquished;
 	});
+	if (message.frame <= received) throw Malformed("submission {} comes after a later one", message.frame);
+	if (message.frame > relinquished) {
+		shown->submission = std::make_shared<const ipc::Submission>(message);
+		shown->submissionCame = now;
+		show(shown->content());
+	}
+	state_.update([&](State &state) { releaseIfComplete(state, afterwards); });
 	finish(afterwards);
-	if (late) throw Malformed("submission {} comes after a later one", message.frame);
 }
 
 void Session::take(const ipc::Relinquish &message)
 {
-	std::shared_ptr<const FrameContent> before;
-	std::shared_ptr<const ipc::Submission> submission;
-	state_.update([&](State &state) {
-		state.relinquished = std::max(state.relinquished, message.frame);
-		if (!state.submission || state.submission->frame > message.frame) return;
-		before.swap(state.newest);
-		submission.swap(state.submission);
-	});
+	const auto shown = shown_.lock();
+	state_.update([&](State &state) { state.relinquished = std::max(state.relinquished, message.frame); });
+	if (!shown->submission || shown->submission->frame > message.frame) return;
+	shown->submission.reset();
+	show(nullptr);
 }
 
 void Session::dropOldHold()

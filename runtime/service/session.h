@@ -48,14 +48,12 @@ public:
 	/// xrBeginSession and xrEndSession. An application that waits for a frame when its session ends is told not to draw.
 	void setRunning(bool running);
 	bool running();
-	/// How its submissions are shown from now on, the one that came last included.
+	/// How its submissions are shown from now on, the one that came last included. One change at a time.
 	template <typename Change> void present(Change change)
 	{
-		std::shared_ptr<const FrameContent> before; // gone when the lock is
-		state_.update([&](State &state) {
-			change(state.presentation);
-			before = std::exchange(state.newest, presented(state));
-		});
+		const auto shown = shown_.lock();
+		change(shown->presentation);
+		show(shown->content());
 	}
 	struct Count {
 		uint64_t submitted = 0, shown = 0;
@@ -75,6 +73,14 @@ private:
 		std::array<XrDuration, 256> values{};
 		uint64_t count = 0, newest = 0; ///< newest: the submission that was seen last
 	};
+	/// What `State::newest` is made of. The compositor, which must not wait, never asks for it.
+	struct Shown {
+		std::shared_ptr<const ipc::Submission> submission; ///< the newest one to be shown, as it came
+		XrTime submissionCame = 0;
+		Presentation presentation;
+
+		std::shared_ptr<const FrameContent> content() const;
+	};
 	struct State {
 		bool running = false;
 		bool waiting = false;      ///< a WaitFrame is unanswered
@@ -82,10 +88,7 @@ private:
 		uint64_t received = 0;     ///< number of the newest submission that came
 		uint64_t relinquished = 0; ///< submissions up to this one are not to be shown any more
 		uint64_t shown = 0, newestShown = 0;
-		std::shared_ptr<const ipc::Submission> submission; ///< the newest one to be shown, as it came
-		XrTime submissionCame = 0;
-		Presentation presentation;
-		std::shared_ptr<const FrameContent> newest; ///< what is to be shown of the submission
+		std::shared_ptr<const FrameContent> newest; ///< what is to be shown
 		Opportunity current;                        ///< the newest one the compositor announced
 		XrTime offeredAt = 0;                       ///< when it was
 		Pace pace;
@@ -109,7 +112,7 @@ private:
 	void finish(Afterwards &afterwards);
 	static void releaseIfComplete(State &state, Afterwards &afterwards);
 	static ipc::FrameReady answer(State &state);
-	static std::shared_ptr<const FrameContent> presented(const State &state);
+	void show(std::shared_ptr<const FrameContent> content);
 	static XrTime latchOf(const State &state);
 
 	const uint32_t number_;
@@ -119,6 +122,7 @@ private:
 	const Images images_;
 	const std::shared_ptr<ipc::SharedPage<ipc::ClientPage>> page_;
 	const std::function<void(const std::string &)> onMalformed_;
+	Guarded<Shown> shown_; ///< locked before state_ where both are
 	Guarded<State> state_;
 	std::jthread thread_;
 };

@@ -78,6 +78,16 @@ TEST_F(OverridesFile, ADamagedOneIsNamedAndLeftAlone)
 	EXPECT_EQ(contentOf(file), "passthrough = 3\n");
 }
 
+TEST_F(OverridesFile, NamesMayBeAnything)
+{
+	const std::string greek = "\xCE\xB3\xCE\xBD\xE1\xBD\xB9\xCE\xBC\xCE\xB7", quoted = "a \"game\".\n[x]", noText = "\xff\xfe";
+	for (const std::string &name : {greek, quoted, noText}) overrides.keep({"applications", name}, {{"passthrough", "alpha"}});
+	const auto found = readConfig({}, {}, {.programs = file}).applications;
+	EXPECT_EQ(found.size(), 3u) << "what is no UTF-8 does not make the rest unreadable";
+	EXPECT_TRUE(found.contains(greek));
+	EXPECT_TRUE(found.contains(quoted));
+}
+
 TEST_F(OverridesFile, WhatCannotBeWrittenIsNamed)
 {
 	folder.write("arift", "a file where the folder should be");
