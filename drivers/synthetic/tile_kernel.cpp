@@ -1,13 +1,8 @@
 #include "drivers/synthetic/tile_kernel.h"
+#include "runtime/base/vector_versions.h"
 #include <algorithm>
 
-// Every loop here runs over the whole tile and has no branch, so that the compiler can use vectors. One version for any x86-64 and one for
-// those with AVX2; sanitizers and other machines get the plain one.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define ARIFT_VECTOR_VERSIONS __attribute__((target_clones("arch=x86-64-v3", "default")))
-#else
-#define ARIFT_VECTOR_VERSIONS
-#endif
+// Every loop here runs over the whole tile and has no branch.
 #define ARIFT_INLINE inline __attribute__((always_inline))
 
 namespace arift::synthetic

@@ -1,10 +1,8 @@
 #include "runtime/compositor/camera_sites.h"
+#include "runtime/base/vector_versions.h"
 #include <algorithm>
 #include <cstring>
 #include <vector>
-
-// The loops over a row are written for the compiler to vectorise, for the processor that it meets.
-#define ARIFT_VECTOR_VERSIONS __attribute__((target_clones("arch=x86-64-v3", "default")))
 
 namespace arift
 {

@@ -244,11 +244,13 @@ TEST_F(CompositorTest, PicturesAreHandedOut)
 		while (!stop.stop_requested()) clock_->sleepUntil(clock_->now() + period, stop);
 	});
 	std::optional<Picture> panel, eyes;
+	std::atomic<bool> done = false;
 	std::thread monitor([&] { // holds no clock, as in the service
 		panel = compositor_->picture(ipc::PictureKind::panel, 10 * second);
 		eyes = compositor_->picture(ipc::PictureKind::eyes, 10 * second);
+		done = true;
 	});
-	while (!eyes && clock_->now() < 1000 * second) run(1);
+	while (!done && clock_->now() < 1000 * second) run(1);
 	monitor.join();
 	ASSERT_TRUE(panel && eyes);
 	EXPECT_EQ(panel->image.width, 1u);
