@@ -283,7 +283,9 @@ void PanelRenderer::Implementation::warmUp()
 	layerImages.add(warmUpCubes[0], cube.image(), cube.spec(), {});
 	// Inside the lens circle, where every frame draws anew.
 	const glm::ivec2 axis(panel.geometry.eyes[0].axis);
-	record(panel, {}, warmUpDrawing(usualKeys(optics), warmUpImages, warmUpCubes, {axis.x, axis.y, axis.x + 4, axis.y + 4}));
+	const std::vector<PipelineKey> usual = usualKeys(optics);
+	for (const PipelineKey &key : usual) pipelines.at(key);
+	record(panel, {}, warmUpDrawing(usual, warmUpImages, warmUpCubes, {axis.x, axis.y, axis.x + 4, axis.y + 4}));
 	gpu.submitAndWait(commands(), fence);
 	for (const uint64_t key : warmUpImages) layerImages.remove(key);
 	for (const uint64_t key : warmUpCubes) layerImages.remove(key);

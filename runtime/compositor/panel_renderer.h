@@ -25,7 +25,7 @@ struct ReadbackImage {
 /// without it.
 enum class Unready { waitedFor, leftOut };
 
-/// Thread-bound. Builds the usual pipelines in its constructor.
+/// Thread-bound.
 class PanelRenderer
 {
 public:
@@ -33,7 +33,8 @@ public:
 	PanelRenderer(gpu::Device &device, const Rig &rig, VkFormat format = VK_FORMAT_R8G8B8A8_SRGB, Unready unready = Unready::waitedFor);
 	~PanelRenderer();
 
-	/// Draws what is usual once: software renderers compile a pipeline when it is first drawn with a kind of texture, which costs a frame.
+	/// Makes the usual pipelines and draws with each once: software renderers compile when they first draw with a kind of texture, which
+	/// costs a frame.
 	/// What is rarer (layers that are not sRGB encoded or not 8-bit RGBA, cameras of encoded values, eyes without the lens) is left out.
 	void warmUp();
 

@@ -6,7 +6,6 @@
 #include "shaders/surface.vert.h"
 #include "shaders/surface_cube.frag.h"
 #include <array>
-#include <memory>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -227,15 +226,16 @@ Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const P
 	  eyeSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBuffer, Type::eCombinedImageSampler, Type::eCombinedImageSampler})),
 	  layerSetLayout_(makeSetLayout(gpu, std::array{Type::eCombinedImageSampler})),
 	  surfaceSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBufferDynamic})),
-	  layout_(makeLayout(gpu, {*eyeSetLayout_, *layerSetLayout_, *surfaceSetLayout_}))
+	  layout_(makeLayout(gpu, {*eyeSetLayout_, *layerSetLayout_, *surfaceSetLayout_})),
+	  factory_(std::make_unique<const Factory>(gpu, optics, *layout_, *renderPass_)),
+	  makesOthers_([this](const std::stop_token &stop) { makeOthers(stop); })
 {
-	const auto factory = std::make_shared<const Factory>(gpu, optics, *layout_, *renderPass_);
-	for (const PipelineKey &key : usualKeys(optics)) usual_.emplace(key, factory->make(key));
-	makesOthers_ = std::jthread([this, factory](const std::stop_token &stop) { makeOthers(stop, *factory); });
 }
 
+Pipelines::~Pipelines() = default;
+
 /// Images are shown meanwhile: the thread leaves the processors to them.
-void Pipelines::makeOthers(const std::stop_token &stop, const Factory &factory)
+void Pipelines::makeOthers(const std::stop_token &stop)
 {
 	::setpriority(PRIO_PROCESS, id_t(::gettid()), 19);
 	for (;;) {
@@ -248,7 +248,7 @@ void Pipelines::makeOthers(const std::stop_token &stop, const Factory &factory)
 		}
 		Other made;
 		try {
-			made.pipeline = factory.make(key);
+			made.pipeline = factory_->make(key);
 		} catch (...) {
 			made.failure = std::current_exception();
 		}
@@ -264,8 +264,8 @@ vk::Pipeline Pipelines::Other::get() const
 
 vk::Pipeline Pipelines::find(const PipelineKey &key)
 {
-	const auto usual = usual_.find(key);
-	if (usual != usual_.end()) return *usual->second;
+	const auto made = made_.find(key);
+	if (made != made_.end()) return *made->second;
 	{
 		const auto others = others_.lock();
 		const auto other = others->pipelines.find(key);
@@ -280,11 +280,8 @@ vk::Pipeline Pipelines::find(const PipelineKey &key)
 
 vk::Pipeline Pipelines::at(const PipelineKey &key)
 {
-	if (const vk::Pipeline pipeline = find(key)) return pipeline;
-	auto others = others_.lock();
-	const Other &other = others->pipelines.at(key);
-	others.wait({}, [&](const Others &) { return other.isReady(); });
-	return other.get();
+	const auto made = made_.find(key);
+	return made != made_.end() ? *made->second : *made_.emplace(key, factory_->make(key)).first->second;
 }
 
 } // namespace arift

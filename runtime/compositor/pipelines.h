@@ -1,4 +1,4 @@
-// The renderer's pipelines: the usual ones are made before the first frame, any other by a thread of its own once it is asked for.
+// The renderer's pipelines, made when they are asked for: at once, or by a thread of their own.
 #pragma once
 #include "runtime/base/guarded.h"
 #include "runtime/compositor/panel_inputs.h"
@@ -8,6 +8,7 @@
 #include <deque>
 #include <exception>
 #include <map>
+#include <memory>
 #include <thread>
 
 namespace arift
@@ -41,8 +42,8 @@ class Pipelines
 public:
 	/// All of them must outlive it.
 	Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const PanelOptics &optics);
+	~Pipelines();
 	Pipelines(const Pipelines &) = delete;
-
 	vk::RenderPass renderPass() const { return *renderPass_; }
 	vk::PipelineLayout layout() const { return *layout_; }
 	/// Set 0: eye block, camera image, angle table. Set 1: layer image. Set 2: surface block, at a dynamic offset. Push constants: layer
@@ -50,31 +51,31 @@ public:
 	vk::DescriptorSetLayout eyeSetLayout() const { return *eyeSetLayout_; }
 	vk::DescriptorSetLayout layerSetLayout() const { return *layerSetLayout_; }
 	vk::DescriptorSetLayout surfaceSetLayout() const { return *surfaceSetLayout_; }
-	/// Null as long as it is being made, which begins when it is first asked for. Both throw vk::SystemError where it could not be made.
-	vk::Pipeline find(const PipelineKey &key);
-	/// Waits until it is made.
+	/// Made here and now if it has not been. Throws vk::SystemError where it cannot be.
 	vk::Pipeline at(const PipelineKey &key);
+	/// Null as long as it is being made, which begins when it is first asked for, unless at() has made it. Throws as at().
+	vk::Pipeline find(const PipelineKey &key);
 
 private:
 	struct Other {
 		vk::raii::Pipeline pipeline{nullptr};
 		std::exception_ptr failure;
 
-		bool isReady() const { return *pipeline || failure; }
 		vk::Pipeline get() const;
 	};
-	/// Those that were asked for; what is wanted is made in this order.
+	/// Those that find() was asked for; what is wanted is made in this order.
 	struct Others {
 		std::map<PipelineKey, Other> pipelines;
 		std::deque<PipelineKey> wanted;
 	};
 	class Factory;
-	void makeOthers(const std::stop_token &stop, const Factory &factory);
+	void makeOthers(const std::stop_token &stop);
 
 	vk::raii::RenderPass renderPass_;
 	vk::raii::DescriptorSetLayout eyeSetLayout_, layerSetLayout_, surfaceSetLayout_;
 	vk::raii::PipelineLayout layout_;
-	std::map<PipelineKey, vk::raii::Pipeline> usual_;
+	std::unique_ptr<const Factory> factory_;
+	std::map<PipelineKey, vk::raii::Pipeline> made_; ///< by at()
 	Guarded<Others> others_;
 	std::jthread makesOthers_;
 };

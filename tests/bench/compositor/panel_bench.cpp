@@ -49,6 +49,7 @@ void fill(gpu::Device &device, const gpu::SharedImage &shared, const vk::ClearCo
 struct Scene {
 	Scene() : rig(readRig(ARIFT_RIG)), renderer(device, rig)
 	{
+		renderer.warmUp();
 		gpu::ImageSpec spec{.format = VK_FORMAT_R8G8B8A8_SRGB,
 							.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
 							.width = viewWidth,
@@ -174,7 +175,7 @@ void makeRenderer(benchmark::State &state)
 {
 	gpu::Device device;
 	const Rig rig = readRig(ARIFT_RIG);
-	for (auto _ : state) PanelRenderer renderer(device, rig);
+	for (auto _ : state) PanelRenderer(device, rig).warmUp();
 }
 
 #define ARIFT_FRAME_BENCHMARK(name) BENCHMARK(name)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()
