@@ -86,6 +86,8 @@ void OrientationFilter::detectRest(const glm::dvec3 &rate, const glm::dvec3 &acc
 	state_.stillFor = still ? state_.stillFor + coefficients_.period : 0;
 	const bool ordinary = greatest(state_.meanRate - state_.restBias) <= parameters_.biasClip;
 	state_.resting = state_.stillFor >= (ordinary ? parameters_.restTime : parameters_.restTimeFirst);
+	// What was integrated with a bias nobody knew is no memory to keep: the inclination is averaged anew.
+	if (state_.resting && !state_.rested) state_.unbroken = 0;
 }
 
 /// How long the acceleration is averaged: long while the integrated rates can be trusted for so long, short while they cannot. Their error

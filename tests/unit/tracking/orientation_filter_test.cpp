@@ -100,6 +100,14 @@ TEST(OrientationFilter, FindsTheBiasAtRest)
 	EXPECT_LT(inclinationError(filter.orientation(), rotationOf({0.3, -0.4, 0})), 0.1);
 }
 
+TEST(OrientationFilter, TheUnknownBiasHasLeftNoTiltASecondAfterTheFirstRest)
+{
+	const glm::dquat lying = rotationOf({0.3, -0.4, 0});
+	OrientationFilter filter(period);
+	rest(filter, lying, 3, glm::dvec3(1.5, -1, 0.5) * degree); // at rest from about 1.5 s on
+	EXPECT_LT(inclinationError(filter.orientation(), lying), 0.03);
+}
+
 TEST(OrientationFilter, SlowTurningIsNotTakenForBiasOnceTheBiasIsKnown)
 {
 	OrientationFilter filter(period);
