@@ -175,6 +175,7 @@ XrResult syncActions(Session &session, const XrActionsSyncInfo &info)
 		return XR_SESSION_NOT_FOCUSED;
 	}
 	session.serviceDevices.update(session.input, session.instance.service.client().input);
+	session.tellStops();
 	if (session.input.synchronize(active.all(), session.instance.service.now()))
 		session.tell(XrEventDataInteractionProfileChanged{XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED, nullptr, handleOf(session)});
 	return XR_SUCCESS;

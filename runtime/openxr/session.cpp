@@ -64,6 +64,20 @@ void Session::announce()
 	life_->announce(handleOf(*this));
 }
 
+void Session::tellStops()
+{
+	untoldStops_.update([this](uint32_t &motors) {
+		if (motors != 0 && frames_->send(ipc::Vibrate{.motors = motors, .duration = 0}, 0) != ipc::Transfer::timeout) motors = 0;
+	});
+}
+
+void Session::vibrate(const ipc::Vibrate &message)
+{
+	tellStops(); // in their order
+	const bool isDropped = frames_->send(message, 0) == ipc::Transfer::timeout;
+	if (isDropped && message.duration == 0) untoldStops_.update([&](uint32_t &motors) { motors |= message.motors; });
+}
+
 void Session::tellService(bool running)
 {
 	instance.service.ask<ipc::Done>(ipc::SessionRunning{.session = id_, .running = running ? 1u : 0u});

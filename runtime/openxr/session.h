@@ -60,8 +60,11 @@ public:
 	/// Nothing that names this session's images is left unsent.
 	void drainSubmissions();
 
-	/// Tells the gamepad's motors; does without where the service does not keep up.
-	void vibrate(const ipc::Vibrate &message) { frames_->send(message, 0); }
+	/// Tells the gamepad's motors. Where the service does not keep up, what should begin does not; what should stop is kept for
+	/// tellStops().
+	void vibrate(const ipc::Vibrate &message);
+	/// Tells the motors to stop of which the service has not been told so yet.
+	void tellStops();
 
 	FrameCost frameCost() const { return *frameCost_.lock(); }
 
@@ -93,6 +96,7 @@ private:
 	std::atomic<uint64_t> submitted_{0};           ///< frames handed to the submitter
 	std::atomic<XrTime> waitedAt_{0}, begunAt_{0}; ///< real: xrWaitFrame's return for the newest frame, and for the one begun
 	mutable Guarded<FrameCost> frameCost_;
+	Guarded<uint32_t> untoldStops_{0u}; ///< as ipc::Vibrate::motors
 	const uint32_t id_;
 	const std::shared_ptr<SessionLife> life_;
 	const std::unique_ptr<ipc::Socket> frames_;

@@ -150,7 +150,8 @@ void Client::beginSession(uint32_t number, ipc::Socket channel)
 		Session::Images{[this](uint32_t swapchain) { return swapchains_->find(swapchain); },
 						[this](const ipc::Submission &submission) { swapchains_->fetch(submission); },
 						[this, number](const ipc::Vibrate &vibration) {
-							if (world_.applications.hasFocus(number)) world_.vibrate(vibration);
+							// Who has no focus takes no motor from who has; whoever turns them looks again.
+							if (world_.applications.hasFocus(number)) world_.vibrate(number, vibration);
 						}},
 		page_,
 		[this](const std::string &problem) {

@@ -8,8 +8,6 @@ namespace
 
 /// How long to read at most (real time) before looking round.
 constexpr XrDuration readLimit = second;
-/// What motors are told at a time: the kernel knows no longer times, and stops them by itself should nobody do so.
-constexpr XrDuration longestRumble = 30 * second;
 
 } // namespace
 
@@ -28,35 +26,44 @@ InputThread::~InputThread()
 	thread_.join();
 }
 
-void InputThread::vibrate(const ipc::Vibrate &message)
+void InputThread::vibrate(uint32_t session, const ipc::Vibrate &message)
 {
 	wanted_.update([&](Wanted &wanted) {
-		wanted.vibration.ask(message, realTime());
+		wanted.vibration.ask(session, message, realTime());
 		++wanted.changes;
 	});
 	devices_->wake();
 }
 
-void InputThread::stopVibrating()
+void InputThread::focusMoved()
 {
-	wanted_.update([](Wanted &wanted) {
-		wanted.vibration.stop();
-		++wanted.changes;
-	});
+	wanted_.update([](Wanted &wanted) { ++wanted.changes; });
 	devices_->wake();
 }
 
-/// Tells the motors where that is news to them: somebody has asked, or what they were told is over.
+/// Without what sessions want that may not, which is forgotten. Should anything have come while they were asked for, they are asked for
+/// again: the number of changes says so.
+InputThread::Wanted InputThread::wanted()
+{
+	Wanted wanted = *wanted_.lock();
+	wanted.vibration.keepThoseOf(deeds_.mayVibrate);
+	wanted_.update([&](Wanted &now) {
+		if (now.changes == wanted.changes) now.vibration = wanted.vibration;
+	});
+	return wanted;
+}
+
+/// Tells the motors where that is news to them: somebody has asked, the focus has moved, or what they were told is over. The kernel stops
+/// them by itself should nobody do so.
 void InputThread::drive()
 {
 	const XrTime now = realTime();
-	const Wanted wanted = *wanted_.lock();
 	const bool isOver = told_.rumble.duration > 0 && now >= told_.until;
-	if (wanted.changes == told_.changes && !isOver) return;
-	Rumble rumble = wanted.vibration.at(now);
-	rumble.duration = std::min(rumble.duration, longestRumble);
+	if (wanted_.lock()->changes == told_.changes && !isOver) return;
+	const Wanted news = wanted();
+	const Rumble rumble = news.vibration.at(now);
 	const bool isAtRest = rumble.duration == 0 && told_.rumble.duration == 0;
-	told_ = {wanted.changes, rumble, now + rumble.duration};
+	told_ = {news.changes, rumble, now + rumble.duration};
 	if (const auto gamepad = map_.gamepad(); gamepad && !isAtRest) devices_->rumble(*gamepad, rumble);
 }
 

@@ -13,18 +13,21 @@ namespace arift
 class InputThread
 {
 public:
-	/// Called on the thread; none may wait long.
+	/// Called on the thread, without a lock; none may wait long.
 	struct Deeds {
-		std::function<void(const ipc::InputTable &)> tell; ///< with everything that is new
+		/// With everything that is new.
+		std::function<void(const ipc::InputTable &)> tell;
 		std::function<void()> recenter, toggleRawPassthrough;
+		std::function<bool(uint32_t session)> mayVibrate; ///< whether it has the focus
 	};
 	InputThread(InputSettings settings, std::unique_ptr<InputDevices> devices, Deeds deeds);
 	~InputThread();
 	InputThread(const InputThread &) = delete;
 
-	/// Both thread-safe.
-	void vibrate(const ipc::Vibrate &message);
-	void stopVibrating();
+	/// Both thread-safe. Whoever asks is felt while it may, which is seen to here: when motors are told, and whenever somebody says that
+	/// the focus has moved.
+	void vibrate(uint32_t session, const ipc::Vibrate &message);
+	void focusMoved();
 
 private:
 	struct Wanted {
@@ -38,6 +41,7 @@ private:
 		XrTime until = 0; ///< real
 	};
 	void run(const std::stop_token &stop);
+	Wanted wanted();
 	void take(const InputReport &report);
 	void drive();
 

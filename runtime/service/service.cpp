@@ -53,11 +53,11 @@ Service::Service(Options options, ipc::Listener &listener)
 	world_.system->heartbeat = realTime();
 	world_.requestStop = [this] { stop(); };
 	world_.describeClients = [this](nlohmann::json &list) { describeClients(list); };
-	world_.vibrate = [this](const ipc::Vibrate &vibration) {
-		if (input_) input_->vibrate(vibration);
+	world_.vibrate = [this](uint32_t session, const ipc::Vibrate &vibration) {
+		if (input_) input_->vibrate(session, vibration);
 	};
 	world_.applications.focusMoves = [this] {
-		if (input_) input_->stopVibrating();
+		if (input_) input_->focusMoved();
 	};
 	world_.forEachSession = [this](const auto &call) { forEachSession(call); };
 	world_.trace = makeTrace();
@@ -191,7 +191,8 @@ try {
 	};
 	return std::make_unique<InputThread>(settings, makeInputDevices(inputPlaces(), settings.devices),
 										 InputThread::Deeds{[this](const ipc::InputTable &input) { world_.applications.tellInput(input); },
-															[this] { world_.recenter(); }, toggleRawPassthrough});
+															[this] { world_.recenter(); }, toggleRawPassthrough,
+															[this](uint32_t session) { return world_.applications.hasFocus(session); }});
 } catch (const std::exception &problem) {
 	log::error("no keyboards, mice and gamepads are read: {}", problem.what());
 	return nullptr;

@@ -4,14 +4,19 @@
 namespace arift
 {
 
-void Vibration::ask(const ipc::Vibrate &message, XrTime now)
+void Vibration::ask(uint32_t session, const ipc::Vibrate &message, XrTime now)
 {
 	for (size_t i = 0; i < motors_.size(); ++i) {
 		if ((message.motors >> i & 1) == 0) continue;
-		const XrDuration duration = message.duration == 0 ? 0 : std::max(message.duration, shortest);
-		const XrDuration longest = std::numeric_limits<XrTime>::max() - now;
-		motors_[i] = {message.amplitude, now + std::min(duration, longest)};
+		const XrDuration duration = message.duration == 0 ? 0 : std::clamp(message.duration, shortest, longest);
+		motors_[i] = {message.amplitude, now + duration, session};
 	}
+}
+
+void Vibration::keepThoseOf(const std::function<bool(uint32_t session)> &mayVibrate)
+{
+	for (Motor &motor : motors_)
+		if (motor.amplitude > 0 && !mayVibrate(motor.session)) motor = {};
 }
 
 Rumble Vibration::at(XrTime now) const

@@ -1,7 +1,8 @@
-// What the two motors of a gamepad are to do, as a session asks for it over time. Pure.
+// What the two motors of a gamepad are to do, as sessions ask for it over time. Pure.
 #pragma once
 #include "runtime/device/input_devices.h"
 #include "runtime/ipc/messages.h"
+#include <functional>
 
 namespace arift
 {
@@ -11,9 +12,12 @@ class Vibration
 public:
 	/// As short as can be felt: a motor needs that long to turn.
 	static constexpr XrDuration shortest = 30 * millisecond;
+	/// However long a session wants: one that hangs is not felt for longer. Who wants more asks again.
+	static constexpr XrDuration longest = 10 * second;
 
-	void ask(const ipc::Vibrate &message, XrTime now);
-	void stop() { motors_ = {}; }
+	void ask(uint32_t session, const ipc::Vibrate &message, XrTime now);
+	/// Motors that a session had which may not have them any more stop, and do not begin again.
+	void keepThoseOf(const std::function<bool(uint32_t session)> &mayVibrate);
 	/// What they do from `now` on, for as long as nothing changes.
 	Rumble at(XrTime now) const;
 
@@ -21,6 +25,7 @@ private:
 	struct Motor {
 		float amplitude = 0;
 		XrTime until = 0;
+		uint32_t session = 0; ///< who asked
 	};
 	std::array<Motor, 2> motors_{}; ///< strong, weak
 };

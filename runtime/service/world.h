@@ -77,8 +77,8 @@ struct World {
 	Overrides overrides;
 	Guarded<ApplicationTable> applicationSettings{config.applications};
 	std::function<void()> requestStop;
-	/// What the motors of the gamepad are to do.
-	std::function<void(const ipc::Vibrate &)> vibrate;
+	/// What a session wants of the gamepad's motors. It is felt only while it has the focus.
+	std::function<void(uint32_t session, const ipc::Vibrate &)> vibrate;
 	/// One line per client for `arift status`.
 	std::function<void(nlohmann::json &)> describeClients;
 	/// Calls it for every session with its application's name, without a lock.

@@ -89,6 +89,8 @@ void FakeService::start(std::shared_ptr<ipc::Socket> socket, void (FakeService::
 	connections_.lock()->push_back({std::move(socket), std::move(thread)});
 }
 
+void FakeService::readFrames() { start(std::make_shared<ipc::Socket>(std::move(unread_.value())), &FakeService::serveFrames); }
+
 void FakeService::hangUp()
 {
 	const auto connections = connections_.lock();

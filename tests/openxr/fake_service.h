@@ -43,6 +43,8 @@ public:
 	void stopHeart() { heart_ = {}; }
 	/// Sessions made from now on have a frame channel that is full and is not read.
 	void stopReadingFrames() { readingFrames_ = false; }
+	/// The frame channel that was not read is from now on.
+	void readFrames();
 	/// What sessions made from now on are told of their images; one descriptor behind the frame channel, or none. Else they may share
 	/// images of VK_FORMAT_R8G8B8A8_SRGB.
 	using Grant = std::function<UniqueFd(ipc::SessionCreated &)>;

@@ -76,6 +76,28 @@ TEST_F(Haptics, WhatIsOutOfRangeIsBroughtIntoIt)
 	EXPECT_EQ(told(2).duration, -1);
 }
 
+TEST_F(Haptics, AStopThatTheServiceHasNoRoomForIsToldLater)
+{
+	EXPECT_EQ(get<PFN_xrDestroySession>("xrDestroySession")(session), XR_SUCCESS);
+	service.stopReadingFrames();
+	session = application.session();
+	EXPECT_EQ(application.begin(session), XR_SUCCESS);
+	application.states();
+	attach();
+	say(tableWithGamepad());
+	ASSERT_EQ(sync(), XR_SUCCESS);
+	EXPECT_EQ(apply(XR_NULL_PATH, 1, second), XR_SUCCESS) << "lost, and nothing was waited for";
+	EXPECT_EQ(stop(shake, XR_NULL_PATH), XR_SUCCESS);
+	service.readFrames();
+	service.waitFor([](const FakeService::Record &now) { return !now.relinquished.empty(); }); // there is room
+	ASSERT_EQ(sync(), XR_SUCCESS);
+	EXPECT_EQ(told(1).duration, 0);
+	EXPECT_EQ(told(1).motors, 1u);
+	ASSERT_EQ(sync(), XR_SUCCESS);
+	EXPECT_EQ(apply(XR_NULL_PATH, 0.5f, second), XR_SUCCESS);
+	EXPECT_EQ(told(2).amplitude, 0.5f) << "once is enough";
+}
+
 TEST_F(Haptics, WrongUseHasItsResult)
 {
 	EXPECT_EQ(stop(click, XR_NULL_PATH), XR_ERROR_ACTION_TYPE_MISMATCH);

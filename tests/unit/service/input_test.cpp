@@ -126,20 +126,29 @@ TEST(Vibration, EachMotorGoesOnForItsOwnTime)
 {
 	Vibration vibration;
 	EXPECT_EQ(vibration.at(0).duration, 0);
-	vibration.ask({.motors = 1, .amplitude = 0.5f, .duration = 100}, 1'000'000'000);
+	vibration.ask(1, {.motors = 1, .amplitude = 0.5f, .duration = 100}, 1'000'000'000);
 	const XrTime start = 1'000'000'000;
 	EXPECT_EQ(vibration.at(start).duration, Vibration::shortest) << "a tenth of a microsecond is felt by nobody";
-	vibration.ask({.motors = 1, .amplitude = 0.5f, .duration = second}, start);
-	vibration.ask({.motors = 2, .amplitude = 1, .duration = 2 * second}, start);
+	vibration.ask(1, {.motors = 1, .amplitude = 0.5f, .duration = second}, start);
+	vibration.ask(1, {.motors = 2, .amplitude = 1, .duration = 2 * second}, start);
 	const Rumble both = vibration.at(start + second / 2), weak = vibration.at(start + second);
 	EXPECT_TRUE(both.strong == 0.5f && both.weak == 1 && both.duration == second / 2);
 	EXPECT_TRUE(weak.strong == 0 && weak.weak == 1 && weak.duration == second);
-	vibration.ask({.motors = 2, .amplitude = 0, .duration = 0}, start);
+	vibration.ask(1, {.motors = 2, .amplitude = 0, .duration = 0}, start);
 	EXPECT_TRUE(vibration.at(start).strong == 0.5f && vibration.at(start).weak == 0);
-	vibration.ask({.motors = 3, .amplitude = 1, .duration = std::numeric_limits<XrDuration>::max()}, start);
-	EXPECT_GT(vibration.at(start).duration, 3600 * second) << "for ever, and no overflow";
-	vibration.stop();
-	EXPECT_EQ(vibration.at(start).duration, 0);
+	vibration.ask(1, {.motors = 3, .amplitude = 1, .duration = std::numeric_limits<XrDuration>::max()}, start);
+	EXPECT_EQ(vibration.at(start).duration, Vibration::longest) << "nobody's motor turns for ever";
+	EXPECT_EQ(vibration.at(start + Vibration::longest).duration, 0);
+}
+
+TEST(Vibration, WhoMayNoLongerLosesItsOwnMotorsForGood)
+{
+	Vibration vibration;
+	vibration.ask(1, {.motors = 1, .amplitude = 1, .duration = second}, 0);
+	vibration.ask(2, {.motors = 2, .amplitude = 0.5f, .duration = second}, 0);
+	vibration.keepThoseOf([](uint32_t session) { return session == 2; });
+	vibration.keepThoseOf([](uint32_t) { return true; });
+	EXPECT_TRUE(vibration.at(0).strong == 0 && vibration.at(0).weak == 0.5f);
 }
 
 namespace
@@ -179,6 +188,8 @@ struct PlayedDevices final : InputDevices {
 struct Deeds {
 	ipc::InputTable told;
 	int recentred = 0, toggled = 0;
+	uint32_t focused = 1;                    ///< the session that has the focus
+	std::function<void()> onceAsked = [] {}; ///< what happens just after the thread has asked who that is
 };
 
 struct Input : testing::Test {
@@ -198,7 +209,30 @@ struct Input : testing::Test {
 	InputThread thread{rightHand(), std::make_unique<PlayedDevices>(played),
 					   InputThread::Deeds{[this](const ipc::InputTable &table) { deeds.update([&](Deeds &now) { now.told = table; }); },
 										  [this] { deeds.update([](Deeds &now) { ++now.recentred; }); },
-										  [this] { deeds.update([](Deeds &now) { ++now.toggled; }); }}};
+										  [this] { deeds.update([](Deeds &now) { ++now.toggled; }); },
+										  [this](uint32_t session) { return hasFocus(session); }}};
+
+	bool hasFocus(uint32_t session)
+	{
+		bool is = false;
+		std::function<void()> then = [] {};
+		deeds.update([&](Deeds &now) {
+			is = session == now.focused;
+			then.swap(now.onceAsked);
+		});
+		then();
+		return is;
+	}
+	void moveFocus(uint32_t session)
+	{
+		deeds.update([&](Deeds &now) { now.focused = session; });
+		thread.focusMoved();
+	}
+	void bringGamepad()
+	{
+		say(pad(7, {}));
+		ASSERT_TRUE(isDone([](const Deeds &now) { return now.told.hasGamepad != 0; }));
+	}
 };
 
 } // namespace
@@ -216,20 +250,46 @@ TEST_F(Input, WhatDevicesSayIsToldAndDone)
 
 TEST_F(Input, MotorsAreToldAtOnceAndAgainWhenOneOfThemEnds)
 {
-	say(pad(7, {}));
-	EXPECT_TRUE(isDone([](const Deeds &now) { return now.told.hasGamepad != 0; }));
-	thread.vibrate({.motors = 1, .amplitude = 1, .duration = 50 * millisecond});
+	bringGamepad();
+	thread.vibrate(1, {.motors = 1, .amplitude = 1, .duration = 50 * millisecond});
 	ASSERT_TRUE(hasRumbled(1));
 	EXPECT_TRUE(rumble(0).strong == 1 && rumble(0).weak == 0);
 	EXPECT_LE(rumble(0).duration, 50 * millisecond);
 	ASSERT_TRUE(hasRumbled(2)) << "told to stop when its time is over";
 	EXPECT_EQ(rumble(1).duration, 0);
-	thread.vibrate({.motors = 3, .amplitude = 1, .duration = 3600 * second});
+	thread.vibrate(1, {.motors = 3, .amplitude = 1, .duration = 3600 * second});
 	ASSERT_TRUE(hasRumbled(3));
-	EXPECT_EQ(rumble(2).duration, 30 * second) << "should the service die, they stop";
-	thread.stopVibrating();
-	ASSERT_TRUE(hasRumbled(4));
-	EXPECT_EQ(rumble(3).duration, 0);
+	EXPECT_LE(rumble(2).duration, Vibration::longest) << "should the service die, they stop";
+	EXPECT_GT(rumble(2).duration, Vibration::longest / 2);
+}
+
+TEST_F(Input, MotorsStopWithTheFocusAndDoNotBeginAgain)
+{
+	bringGamepad();
+	thread.vibrate(1, {.motors = 3, .amplitude = 1, .duration = 3600 * second});
+	ASSERT_TRUE(hasRumbled(1));
+	moveFocus(2);
+	ASSERT_TRUE(hasRumbled(2));
+	EXPECT_EQ(rumble(1).duration, 0);
+	moveFocus(1);
+	thread.vibrate(1, {.motors = 2, .amplitude = 0.5f, .duration = second});
+	ASSERT_TRUE(hasRumbled(3));
+	EXPECT_TRUE(rumble(2).strong == 0 && rumble(2).weak == 0.5f);
+}
+
+TEST_F(Input, AFocusThatMovesWhileItIsAskedForStopsWhatHasJustBegun)
+{
+	bringGamepad();
+	deeds.update([&](Deeds &now) { now.onceAsked = [this] { moveFocus(2); }; });
+	thread.vibrate(1, {.motors = 1, .amplitude = 1, .duration = 3600 * second});
+	ASSERT_TRUE(hasRumbled(2));
+	EXPECT_EQ(rumble(0).strong, 1) << "the session had the focus when its motor was told";
+	EXPECT_EQ(rumble(1).duration, 0);
+	// What was asked for with the focus and comes when it has moved is not felt at all: the next that is, is what is asked for then.
+	thread.vibrate(1, {.motors = 1, .amplitude = 1, .duration = second});
+	thread.vibrate(2, {.motors = 2, .amplitude = 0.25f, .duration = second});
+	ASSERT_TRUE(hasRumbled(3));
+	EXPECT_TRUE(rumble(2).strong == 0 && rumble(2).weak == 0.25f);
 }
 
 TEST(InputSettings, AreReadWithEveryNumberAndNameChecked)
