@@ -75,8 +75,8 @@ void InputThread::take(const InputReport &report)
 	if (wishes.recenter) deeds_.recenter();
 }
 
-void InputThread::run(const std::stop_token &stop)
-try {
+void InputThread::read(const std::stop_token &stop)
+{
 	while (!stop.stop_requested()) {
 		drive();
 		const XrTime now = realTime();
@@ -84,8 +84,23 @@ try {
 		InputReport report;
 		if (devices_->read(report, deadline) == Outcome::ready) take(report);
 	}
-} catch (const std::exception &problem) {
-	log::error("keyboards, mice and gamepads are read no more: {}", problem.what());
+}
+
+/// No key is held and no motor turns for ever.
+void InputThread::leave()
+{
+	deeds_.tell({});
+	if (const auto gamepad = map_.gamepad(); gamepad && told_.rumble.duration > 0) devices_->rumble(*gamepad, {});
+}
+
+void InputThread::run(const std::stop_token &stop)
+{
+	try {
+		read(stop);
+	} catch (const std::exception &problem) {
+		log::error("keyboards, mice and gamepads are read no more: {}", problem.what());
+	}
+	leave();
 }
 
 } // namespace arift

@@ -15,7 +15,7 @@ class InputThread
 public:
 	/// Called on the thread, without a lock; none may wait long.
 	struct Deeds {
-		/// With everything that is new.
+		/// With everything that is new, and that nothing is there when nobody reads any more.
 		std::function<void(const ipc::InputTable &)> tell;
 		std::function<void()> recenter, toggleRawPassthrough;
 		std::function<bool(uint32_t session)> mayVibrate; ///< whether it has the focus
@@ -41,6 +41,8 @@ private:
 		XrTime until = 0; ///< real
 	};
 	void run(const std::stop_token &stop);
+	void read(const std::stop_token &stop);
+	void leave();
 	Wanted wanted();
 	void take(const InputReport &report);
 	void drive();

@@ -159,14 +159,15 @@ struct PlayedDevices final : InputDevices {
 	struct State {
 		std::deque<InputReport> reports;
 		std::vector<Rumble> rumbles;
-		bool isWoken = false;
+		bool isWoken = false, isBroken = false;
 	};
 	explicit PlayedDevices(Guarded<State> &shared) : state(shared) {}
 	Outcome read(InputReport &report, XrTime deadline) override
 	{
 		auto access = state.lock();
-		const auto isThere = [](const State &now) { return now.isWoken || !now.reports.empty(); };
+		const auto isThere = [](const State &now) { return now.isWoken || now.isBroken || !now.reports.empty(); };
 		access.waitFor({}, std::chrono::nanoseconds(std::max<XrDuration>(deadline - realTime(), 0)), isThere);
+		if (access->isBroken) throw std::runtime_error("the devices cannot be polled");
 		access->isWoken = false;
 		if (access->reports.empty()) return Outcome::timeout;
 		report = access->reports.front();
@@ -290,6 +291,20 @@ TEST_F(Input, AFocusThatMovesWhileItIsAskedForStopsWhatHasJustBegun)
 	thread.vibrate(2, {.motors = 2, .amplitude = 0.25f, .duration = second});
 	ASSERT_TRUE(hasRumbled(3));
 	EXPECT_TRUE(rumble(2).strong == 0 && rumble(2).weak == 0.25f);
+}
+
+TEST_F(Input, WhenNobodyReadsAnyMoreNoKeyIsHeldAndNoMotorTurns)
+{
+	bringGamepad();
+	say(key(KEY_SPACE, true));
+	ASSERT_TRUE(isDone([](const Deeds &now) { return now.told.hands[right].select != 0; }));
+	thread.vibrate(1, {.motors = 1, .amplitude = 1, .duration = 3600 * second});
+	ASSERT_TRUE(hasRumbled(1));
+	played.update([](PlayedDevices::State &now) { now.isBroken = true; });
+	EXPECT_TRUE(isDone([](const Deeds &now) { return !now.told.hands[right].isThere && !now.told.hasGamepad; }));
+	EXPECT_FALSE(deeds.lock()->told.hands[right].select);
+	ASSERT_TRUE(hasRumbled(2));
+	EXPECT_EQ(rumble(1).duration, 0);
 }
 
 TEST(InputSettings, AreReadWithEveryNumberAndNameChecked)
