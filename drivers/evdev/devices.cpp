@@ -1,7 +1,9 @@
 #include "drivers/evdev/devices.h"
 #include "runtime/base/log.h"
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstring>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/inotify.h>
@@ -23,13 +25,6 @@ UniqueFd checked(int fd, const char *what)
 	return UniqueFd(fd);
 }
 
-/// Empties a descriptor that says no more than that something happened.
-void drain(int fd)
-{
-	alignas(inotify_event) char ignored[4096];
-	while (::read(fd, ignored, sizeof(ignored)) > 0) {}
-}
-
 } // namespace
 
 Devices::Devices(Places places, std::vector<std::string> wanted)
@@ -49,9 +44,30 @@ void Devices::wake()
 /// Rights come after the node: udev grants them to whoever sits before the machine.
 void Devices::watch()
 {
-	if (isWatching_) return;
-	constexpr uint32_t changes = IN_CREATE | IN_DELETE | IN_ATTRIB | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE_SELF;
-	isWatching_ = ::inotify_add_watch(notices_.get(), places_.devices.c_str(), changes) >= 0;
+	if (watch_ >= 0) return;
+	constexpr uint32_t changes = IN_CREATE | IN_DELETE | IN_ATTRIB | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE_SELF | IN_MOVE_SELF;
+	watch_ = ::inotify_add_watch(notices_.get(), places_.devices.c_str(), changes);
+}
+
+void Devices::unwatch()
+{
+	::inotify_rm_watch(notices_.get(), watch_); // the kernel has forgotten it already where the folder is gone
+	watch_ = -1;
+}
+
+/// Whatever changed, the folder is looked through. One that was removed, unmounted or moved away is watched no more, though another may
+/// stand in its place already.
+void Devices::takeNotices()
+{
+	isStale_ = true;
+	alignas(inotify_event) std::array<char, 4096> notices;
+	for (ssize_t size; (size = ::read(notices_.get(), notices.data(), notices.size())) > 0;)
+		for (ssize_t at = 0; at < size;) {
+			inotify_event notice;
+			std::memcpy(&notice, notices.data() + at, sizeof(notice));
+			at += ssize_t(sizeof(notice) + notice.len);
+			if (notice.wd == watch_ && (notice.mask & (IN_IGNORED | IN_MOVE_SELF))) unwatch();
+		}
 }
 
 void Devices::open(const Node &node)
@@ -109,18 +125,18 @@ bool Devices::sleep(XrTime deadline)
 {
 	std::vector<pollfd> polled{{notices_.get(), POLLIN, 0}, {woken_.get(), POLLIN, 0}};
 	for (const Opened &opened : opened_) polled.push_back({opened.device.fd(), POLLIN, 0});
-	const XrTime until = isWatching_ ? deadline : std::min(deadline, realTime() + lookAgain);
+	const XrTime until = watch_ >= 0 ? deadline : std::min(deadline, realTime() + lookAgain);
 	const XrDuration rest = std::max<XrDuration>(until - realTime(), 0);
 	const timespec limit{.tv_sec = time_t(rest / second), .tv_nsec = long(rest % second)};
 	if (::ppoll(polled.data(), polled.size(), &limit, nullptr) < 0 && errno != EINTR)
 		throw std::system_error(errno, std::generic_category(), "poll");
-	if (polled[0].revents || !isWatching_) isStale_ = true;
-	if (polled[0].revents) drain(notices_.get());
-	isWatching_ = isWatching_ && std::filesystem::exists(places_.devices);
+	if (polled[0].revents || watch_ < 0) takeNotices();
+	if (watch_ >= 0 && !std::filesystem::exists(places_.devices)) unwatch(); // removed, and held open by somebody
 	for (size_t i = polled.size(); i-- > 2;) // a device that is pulled out says so for ever and gives nothing to read
 		if (polled[i].revents & (POLLHUP | POLLERR | POLLNVAL)) close(opened_.begin() + ptrdiff_t(i - 2));
 	if (!polled[1].revents) return realTime() < deadline;
-	drain(woken_.get());
+	uint64_t times = 0; // that it was woken
+	[[maybe_unused]] const ssize_t taken = ::read(woken_.get(), &times, sizeof(times));
 	return false;
 }
 

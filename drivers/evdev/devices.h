@@ -27,6 +27,8 @@ private:
 	void scan();
 	void open(const Node &node);
 	void watch();
+	void unwatch();
+	void takeNotices();
 	void close(std::vector<Opened>::iterator opened);
 	bool readOpened(InputReport &report);
 	bool sleep(XrTime deadline);
@@ -34,7 +36,8 @@ private:
 	const Places places_;
 	const std::vector<std::string> wanted_;
 	const UniqueFd notices_, woken_; ///< inotify of the folder of devices; eventfd
-	bool isWatching_ = false, isStale_ = true;
+	int watch_ = -1;                 ///< of inotify; -1: the folder is not watched
+	bool isStale_ = true;
 	uint32_t next_ = 1;
 	std::vector<Opened> opened_;
 	std::map<std::string, std::string> complaints_; ///< by node: what was said of it last

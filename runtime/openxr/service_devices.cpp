@@ -96,9 +96,10 @@ void ServiceDevices::update(Input &input, const ipc::Published<ipc::InputTable> 
 	if (page.version() == version_.load(std::memory_order_relaxed)) return;
 	input.changeDevices([&](InputDevices &devices) {
 		const uint32_t version = page.version();
-		// What is written meanwhile is news next time.
-		if (const auto table = page.read()) write(*table, devices);
-		version_.store(version, std::memory_order_relaxed);
+		const auto table = page.read();
+		if (!table) return; // it is news still, when it can be read
+		write(*table, devices);
+		version_.store(version, std::memory_order_relaxed); // what is written meanwhile is news next time
 	});
 }
 

@@ -43,6 +43,30 @@ TEST_F(ServiceDevices, AHandIsASimpleControllerAsLongAsItIsThere)
 	EXPECT_EQ(profileOf("/user/hand/right"), XrPath(XR_NULL_PATH));
 }
 
+TEST_F(ServiceDevices, WhatCouldNotBeReadIsNewsStillWhenItCan)
+{
+	const XrAction select = action("select", XR_ACTION_TYPE_BOOLEAN_INPUT);
+	suggest(simple, {{select, "/user/hand/right/input/select/click"}});
+	attach();
+	say({});
+	ASSERT_EQ(sync(), XR_SUCCESS);
+	// The page begins with its version. A page of the old values with the new version is one that cannot be read.
+	using Page = ipc::Published<ipc::InputTable>;
+	std::array<std::byte, sizeof(Page)> old{}, written{};
+	void *const page = &service.client().input;
+	std::memcpy(old.data(), page, sizeof(Page));
+	say(tableWithRightHand());
+	std::memcpy(written.data(), page, sizeof(Page));
+	std::memcpy(old.data(), written.data(), sizeof(uint32_t));
+	std::memcpy(page, old.data(), sizeof(Page));
+	ASSERT_FALSE(service.client().input.read());
+	ASSERT_EQ(sync(), XR_SUCCESS);
+	EXPECT_FALSE(boolean(select).isActive);
+	std::memcpy(page, written.data(), sizeof(Page));
+	ASSERT_EQ(sync(), XR_SUCCESS);
+	EXPECT_TRUE(boolean(select).isActive);
+}
+
 TEST_F(ServiceDevices, AnApplicationThatSuggestedNothingForItHasNoSuchDevice)
 {
 	const XrAction select = action("select", XR_ACTION_TYPE_BOOLEAN_INPUT);

@@ -140,6 +140,21 @@ TEST_F(Evdev, AFolderThatIsNotThereYetIsLookedForAgain)
 	EXPECT_TRUE(next().isThere);
 }
 
+TEST_F(Evdev, AnotherFolderInTheSamePlaceIsFollowedToo)
+{
+	EXPECT_EQ(look(), Outcome::timeout);
+	std::filesystem::remove_all(folders.devices);
+	std::filesystem::create_directories(folders.devices); // before anybody looked
+	for (int time = 0; time < 2; ++time) EXPECT_EQ(look(), Outcome::timeout);
+	const FakeInputDevice keyboard(folders, "event0", InputModel::keyboard());
+	EXPECT_TRUE(next().isThere);
+	std::filesystem::rename(folders.devices, folder.path() / "moved away");
+	std::filesystem::create_directories(folders.devices);
+	for (int time = 0; time < 3; ++time) look();
+	const FakeInputDevice mouse(folders, "event1", InputModel::mouse());
+	EXPECT_TRUE(next().isThere);
+}
+
 TEST_F(Evdev, WhatMayNotBeReadIsReadAsSoonAsItMay)
 {
 	const FakeInputDevice keyboard(folders, "event0", InputModel::keyboard(), 0);
