@@ -53,7 +53,9 @@ void Compositor::Loop::latchLayers(Frame &frame, Latched &latched) const
 	for (const auto &source : frame.sources) {
 		const auto content = frame.contents.emplace_back(source->content());
 		if (!content || frame.settings.rawPassthrough) continue;
-		if (source->order() == 0) latched.blendMode = content->blendMode; // the topmost application decides, overlays do not
+		// The topmost application decides, overlays do not, unless they bring the world with them.
+		if (source->order() == 0 || content->hidesOthers) latched.blendMode = content->blendMode;
+		if (content->hidesOthers) latched.layers.clear();
 		for (PanelLayer layer : content->layers) {
 			for (size_t eye = 0; eye < 2; ++eye) {
 				if (isGone(layer.projection[eye])) layer.projection[eye].reset();

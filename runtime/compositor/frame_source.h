@@ -13,6 +13,8 @@ struct FrameContent {
 	XrTime received = 0; ///< when the finished submission came
 	XrEnvironmentBlendMode blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
 	std::vector<PanelLayer> layers; ///< bottom first
+	/// The world lies below its layers, in front of whatever others show below: XR_FB_passthrough's layers are the cameras' image.
+	bool hidesOthers = false;
 };
 
 /// Called by the compositor thread alone, while it holds the clock. No call may block.

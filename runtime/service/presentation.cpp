@@ -1,4 +1,6 @@
 #include "runtime/service/presentation.h"
+#include <algorithm>
+#include <tuple>
 
 namespace arift
 {
@@ -10,6 +12,21 @@ constexpr XrCompositionLayerFlags sourceAlpha = XR_COMPOSITION_LAYER_BLEND_TEXTU
 
 bool isPlain(const PassthroughStyle &style) { return style.opacity >= 1 && !style.isChanged(); }
 bool isInvisible(const PassthroughStyle &style) { return style.opacity <= 0 && style.edge.a <= 0; }
+/// Of a map nobody knows how opaque it is.
+bool hidesAll(const PassthroughStyle &style) { return style.opacity >= 1 && !style.map; }
+
+/// Two layers without anything between that show the same picture everywhere equally opaque are one that is more so.
+bool isMerged(PanelLayer &below, const PassthroughStyle &style)
+{
+	if (!below.passthrough || below.passthrough->map || style.map) return false;
+	const auto pictureOf = [](const PassthroughStyle &each) {
+		return std::tuple(each.brightness, each.contrast, each.saturation, each.edge.a > 0);
+	};
+	if (style.edge.a > 0 || pictureOf(*below.passthrough) != pictureOf(style)) return false;
+	float &opacity = below.passthrough->opacity;
+	opacity = 1 - (1 - opacity) * (1 - style.opacity);
+	return true;
+}
 
 /// An opaque layer's alpha is what the opacity says, whatever its image holds.
 void fade(PanelLayer &layer, float opacity)
@@ -33,12 +50,15 @@ void addPassthrough(FrameContent &content, const Presentation &presentation, uin
 	// Where light is added to the world, the world is seen already.
 	const bool isSeen = presentation.passthroughRuns && place.shown && content.blendMode != XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
 	if (!isSeen || isInvisible(place.style)) return;
-	if (!isPlain(place.style)) {
-		content.layers.push_back({.passthrough = place.style});
-		return;
+	if (hidesAll(place.style)) {
+		content.layers.clear();
+		content.hidesOthers = true;
+		content.blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
 	}
-	content.layers.clear();
-	content.blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
+	if (isPlain(place.style) || (!content.layers.empty() && isMerged(content.layers.back(), place.style))) return;
+	const auto isPassthrough = [](const PanelLayer &layer) { return layer.passthrough.has_value(); };
+	if (std::ranges::count_if(content.layers, isPassthrough) >= ptrdiff_t(ipc::maxPassthroughLayers)) return;
+	content.layers.push_back({.passthrough = place.style});
 }
 
 void force(FrameContent &content, const ForcedPassthrough &forced)

@@ -20,8 +20,10 @@ struct Presentation {
 	std::array<PassthroughPlace, ipc::maxPassthroughLayers> passthrough;
 };
 
-/// The session's passthrough layer of that number above all layers of `content`. One that hides whatever is below is no layer but makes the
-/// content one that is blended over the world.
+/// The session's passthrough layer of that number above all layers of `content`. One that hides whatever is below takes it away, other
+/// applications' layers with it; with nothing to be changed about the world it is no layer itself. The specification lets one layer be
+/// submitted as often as there is room, and each is drawn over the whole panel: those that follow each other become one where that looks
+/// the same, and more than a session can have of them are not drawn in one submission.
 void addPassthrough(FrameContent &content, const Presentation &presentation, uint32_t number);
 /// Last, when all layers are there.
 void force(FrameContent &content, const ForcedPassthrough &forced);

@@ -66,11 +66,12 @@ private:
 class FakeSource final : public FrameSource
 {
 public:
-	explicit FakeSource(uint64_t image, uint64_t order = 0) : order_(order)
+	explicit FakeSource(uint64_t image, uint64_t order = 0, bool hidesOthers = false) : order_(order)
 	{
 		auto made = std::make_shared<FrameContent>();
 		made->frame = 1;
-		made->blendMode = XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
+		made->blendMode = hidesOthers ? XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND : XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
+		made->hidesOthers = hidesOthers;
 		made->layers.resize(1);
 		made->layers[0].quad[0] = QuadView{identityPose, {1, 1}, {.image = image}};
 		content_ = std::move(made);
@@ -185,9 +186,15 @@ TEST_F(CompositorTest, ApplicationsAreWokenForTheImageAfter)
 TEST_F(CompositorTest, SourcesAreDrawnInTheirOrderWheneverTheyCame)
 {
 	std::vector<std::shared_ptr<FakeSource>> sources;
-	const auto add = [&](uint64_t image, uint64_t order) {
+	const auto add = [&](uint64_t image, uint64_t order, bool hidesOthers = false) {
 		compositor_->addImage(image, VkImage(1), {}, nullptr);
-		compositor_->addSource(sources.emplace_back(std::make_shared<FakeSource>(image, order)));
+		compositor_->addSource(sources.emplace_back(std::make_shared<FakeSource>(image, order, hidesOthers)));
+	};
+	const auto imagesShown = [&] {
+		std::vector<uint64_t> images;
+		const auto drawnLast = drawn().back();
+		for (const PanelLayer &layer : drawnLast.inputs.layers) images.push_back(layer.quad[0]->texture.image);
+		return images;
 	};
 	add(1, 9);
 	run(2);
@@ -197,11 +204,12 @@ TEST_F(CompositorTest, SourcesAreDrawnInTheirOrderWheneverTheyCame)
 	add(4, 0);
 	add(5, 9);
 	run(2);
-	std::vector<uint64_t> images;
-	const auto drawnLast = drawn().back();
-	for (const PanelLayer &layer : drawnLast.inputs.layers) images.push_back(layer.quad[0]->texture.image);
-	EXPECT_EQ(images, (std::vector<uint64_t>{2, 4, 3, 1, 5}));
+	EXPECT_EQ(imagesShown(), (std::vector<uint64_t>{2, 4, 3, 1, 5}));
 	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ADDITIVE);
+	add(6, 7, true);
+	run(2);
+	EXPECT_EQ(imagesShown(), (std::vector<uint64_t>{6, 1, 5})) << "an overlay with the world behind it hides what is below";
+	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND);
 }
 
 TEST_F(CompositorTest, RawPassthroughShowsNoLayerAndApplicationsGoOn)

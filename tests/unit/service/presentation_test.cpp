@@ -18,7 +18,7 @@ ipc::Submission submissionOf(const std::string &layers, XrEnvironmentBlendMode m
 	submission.frame = 3;
 	submission.blendMode = mode;
 	for (const char letter : layers) {
-		ipc::Layer &layer = submission.layers[submission.layerCount++];
+		ipc::Layer &layer = submission.layers.at(submission.layerCount++);
 		layer.type = letter == 'q' ? ipc::LayerType::quad : ipc::LayerType::passthrough;
 		layer.passthrough = letter == 'q' ? 0 : uint32_t(letter - '0');
 		layer.flags = flags;
@@ -93,11 +93,36 @@ TEST(Presentation, EveryStyleButThePlainOneIsALayer)
 	};
 	EXPECT_EQ(with([](PassthroughStyle &) {}), "w");
 	EXPECT_EQ(with([](PassthroughStyle &style) { style.opacity = 0.99f; }), "qp");
-	EXPECT_EQ(with([](PassthroughStyle &style) { style.edge.a = 0.5f; }), "qp");
-	EXPECT_EQ(with([](PassthroughStyle &style) { style.brightness = 1; }), "qp");
-	EXPECT_EQ(with([](PassthroughStyle &style) { style.contrast = 2; }), "qp");
-	EXPECT_EQ(with([](PassthroughStyle &style) { style.saturation = 0; }), "qp");
-	EXPECT_EQ(with([](PassthroughStyle &style) { style.map = LayerTexture{}; }), "qp");
+	EXPECT_EQ(with([](PassthroughStyle &style) { style.edge.a = 0.5f; }), "wp") << "as opaque as the plain one";
+	EXPECT_EQ(with([](PassthroughStyle &style) { style.brightness = 1; }), "wp");
+	EXPECT_EQ(with([](PassthroughStyle &style) { style.contrast = 2; }), "wp");
+	EXPECT_EQ(with([](PassthroughStyle &style) { style.saturation = 0; }), "wp");
+	EXPECT_EQ(with([](PassthroughStyle &style) { style.map = LayerTexture{}; }), "qp") << "a map may let through what is below";
+}
+
+TEST(Presentation, WhatHidesItsOwnLayersHidesThoseOfOthers)
+{
+	const auto hides = [](const std::string &layers) { return contentOf(submissionOf(layers), 1, running())->hidesOthers; };
+	EXPECT_TRUE(hides("0q"));
+	EXPECT_FALSE(hides("1q"));
+	EXPECT_FALSE(hides("q"));
+}
+
+TEST(Presentation, OnePassthroughLayerOverAnotherIsDrawnOnceWhereItLooksTheSame)
+{
+	const std::string often(64, '1');
+	const auto content = contentOf(submissionOf("11q"), 1, running());
+	ASSERT_EQ(content->layers.size(), 2u);
+	EXPECT_EQ(content->layers[0].passthrough->opacity, 0.75f);
+	EXPECT_EQ(shown(submissionOf(often), running()), "p");
+	EXPECT_EQ(shown(submissionOf("1q1"), running()), "pqp") << "something lies between";
+	Presentation others = running();
+	others.passthrough[0].style = {.opacity = 0.5f, .brightness = 10};
+	EXPECT_EQ(shown(submissionOf("01"), others), "pp") << "another picture";
+	Presentation edges = running();
+	edges.passthrough[1].style.edge.a = 0.5f;
+	EXPECT_EQ(contentOf(submissionOf(often), 1, edges)->layers.size(), ipc::maxPassthroughLayers)
+		<< "edges are more opaque than what is between them";
 }
 
 Presentation forcing(ipc::Forced mode, float opacity = 1) { return {.forced = {mode, {{1, 0, 1}, 0.2f, 0.1f}, opacity}}; }
