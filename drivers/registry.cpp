@@ -52,12 +52,12 @@ std::unique_ptr<Driver> makeDriver(const std::string &name, const DriverContext 
 
 std::vector<InputDeviceInfo> listInputDevices(const InputPlaces &places, const std::vector<std::string> &wanted)
 {
-	return evdev::describeNodes({places.devices, places.sysfs}, wanted);
+	return evdev::describeNodes(places, wanted);
 }
 
 std::unique_ptr<InputDevices> makeInputDevices(const InputPlaces &places, const std::vector<std::string> &wanted)
 {
-	return std::make_unique<evdev::Devices>(evdev::Places{places.devices, places.sysfs}, wanted);
+	return std::make_unique<evdev::Devices>(places, wanted);
 }
 
 std::optional<KeyCode> keyNamed(const std::string &name)

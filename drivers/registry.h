@@ -32,11 +32,6 @@ std::unique_ptr<Driver> makeDriver(const std::string &name, const DriverContext 
 
 // ---- keyboards, mice, gamepads
 
-/// Where the system lists them: its own places, or a test's.
-struct InputPlaces {
-	std::filesystem::path devices = "/dev/input";
-	std::filesystem::path sysfs = "/sys";
-};
 /// All that there are, for people; `wanted` are names (* and ? stand for any text and any character) of those that are switched on. Opens
 /// nothing.
 std::vector<InputDeviceInfo> listInputDevices(const InputPlaces &places, const std::vector<std::string> &wanted);

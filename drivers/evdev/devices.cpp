@@ -27,7 +27,7 @@ UniqueFd checked(int fd, const char *what)
 
 } // namespace
 
-Devices::Devices(Places places, std::vector<std::string> wanted)
+Devices::Devices(InputPlaces places, std::vector<std::string> wanted)
 	: places_(std::move(places)),
 	  wanted_(std::move(wanted)),
 	  notices_(checked(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC), "inotify")),

@@ -12,7 +12,7 @@ class Devices final : public InputDevices
 public:
 	/// `wanted`: names of devices, as in isWanted(). Devices that cannot be opened are tried again whenever something changes there. Throws
 	/// std::system_error when the process has no descriptors left.
-	Devices(Places places, std::vector<std::string> wanted);
+	Devices(InputPlaces places, std::vector<std::string> wanted);
 
 	Outcome read(InputReport &report, XrTime deadline) override;
 	void rumble(uint32_t device, const Rumble &rumble) override;
@@ -33,7 +33,7 @@ private:
 	bool readOpened(InputReport &report);
 	bool sleep(XrTime deadline);
 
-	const Places places_;
+	const InputPlaces places_;
 	const std::vector<std::string> wanted_;
 	const UniqueFd notices_, woken_; ///< inotify of the folder of devices; eventfd
 	int watch_ = -1;                 ///< of inotify; -1: the folder is not watched

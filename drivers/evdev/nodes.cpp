@@ -71,7 +71,7 @@ InputKind kindOf(const fs::path &capabilities)
 
 } // namespace
 
-std::vector<Node> findNodes(const Places &places)
+std::vector<Node> findNodes(const InputPlaces &places)
 {
 	std::vector<Node> nodes;
 	std::error_code gone;
@@ -90,7 +90,7 @@ bool isWanted(const Node &node, const std::vector<std::string> &wanted)
 	return std::ranges::any_of(wanted, [&](const std::string &name) { return ::fnmatch(name.c_str(), node.name.c_str(), 0) == 0; });
 }
 
-std::vector<InputDeviceInfo> describeNodes(const Places &places, const std::vector<std::string> &wanted)
+std::vector<InputDeviceInfo> describeNodes(const InputPlaces &places, const std::vector<std::string> &wanted)
 {
 	std::vector<InputDeviceInfo> all;
 	for (const Node &node : findNodes(places)) {

@@ -2,6 +2,7 @@
 #pragma once
 #include "runtime/base/xr.h"
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace arift
@@ -25,6 +26,22 @@ enum class GamepadButton : uint32_t {
 	thumbstickRight,
 	count
 };
+
+/// In the order of GamepadButton: "a" is .../input/a/click.
+inline constexpr std::array<const char *, size_t(GamepadButton::count)> gamepadButtonNames{"menu",
+																						   "view",
+																						   "a",
+																						   "b",
+																						   "x",
+																						   "y",
+																						   "dpad_down",
+																						   "dpad_right",
+																						   "dpad_up",
+																						   "dpad_left",
+																						   "shoulder_left",
+																						   "shoulder_right",
+																						   "thumbstick_left",
+																						   "thumbstick_right"};
 
 struct GamepadState {
 	uint32_t buttons = 0;                    ///< the bit 1 << GamepadButton is set while it is pressed

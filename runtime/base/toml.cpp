@@ -116,7 +116,7 @@ std::filesystem::path TomlTable::path(const char *key)
 	return std::filesystem::absolute(source && !isCommandLine(*source) ? std::filesystem::absolute(*source).parent_path() / value : value);
 }
 
-size_t TomlTable::choice(const char *key, std::initializer_list<const char *> choices, size_t otherwise)
+size_t TomlTable::choice(const char *key, std::span<const char *const> choices, size_t otherwise)
 {
 	if (!has(key)) return otherwise;
 	const auto value = table_->get(key)->value<std::string>();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 // toml++ asserts what a damaged file can break (a table header that starts with a dot) and then reports it properly: let it.
 #ifndef TOML_ASSERT
@@ -53,7 +54,11 @@ public:
 	/// An empty text is an empty path.
 	std::filesystem::path path(const char *key);
 	/// One of `choices`; its index.
-	size_t choice(const char *key, std::initializer_list<const char *> choices, size_t otherwise);
+	size_t choice(const char *key, std::span<const char *const> choices, size_t otherwise);
+	size_t choice(const char *key, std::initializer_list<const char *> choices, size_t otherwise)
+	{
+		return choice(key, std::span(choices.begin(), choices.size()), otherwise);
+	}
 	/// An array of numbers; `size` 0 means any length.
 	std::vector<double> numbers(const char *key, size_t size);
 	/// An array of texts.

@@ -49,20 +49,13 @@ std::vector<Compositor::Loop::ImageChange> Compositor::Loop::take(Frame &frame)
 
 void Compositor::Loop::latchLayers(Frame &frame, Latched &latched) const
 {
-	const auto isGone = [this](const auto &view) { return view && !images_.contains(view->texture.image); };
 	for (const auto &source : frame.sources) {
 		const auto content = frame.contents.emplace_back(source->content());
 		if (!content || frame.settings.rawPassthrough) continue;
 		// The topmost application decides, overlays do not, unless they bring the world with them.
 		if (source->order() == 0 || content->hidesOthers) latched.blendMode = content->blendMode;
 		if (content->hidesOthers) latched.layers.clear();
-		for (PanelLayer layer : content->layers) {
-			for (size_t eye = 0; eye < 2; ++eye) {
-				if (isGone(layer.projection[eye])) layer.projection[eye].reset();
-				if (isGone(layer.quad[eye])) layer.quad[eye].reset();
-			}
-			latched.layers.push_back(layer);
-		}
+		latched.layers.insert(latched.layers.end(), content->layers.begin(), content->layers.end());
 	}
 }
 

@@ -15,7 +15,7 @@ bool lies(const LayerTexture &texture, const gpu::ImageSpec &spec, Surface surfa
 	const XrExtent2Di &extent = texture.rect.extent;
 	return corner.x >= 0 && corner.y >= 0 && extent.width > 0 && extent.height > 0 &&
 		   int64_t(corner.x) + extent.width <= int64_t(spec.width) && int64_t(corner.y) + extent.height <= int64_t(spec.height) &&
-		   texture.arrayIndex < (gpu::isCube(spec) ? spec.arrayLayers / 6 : spec.arrayLayers);
+		   texture.arrayIndex < gpu::arraySize(spec);
 }
 
 /// A texel's light reaches into its neighbours. `texture` must outlive the answer. `wholly`: the layer hides what is behind it, whatever

@@ -58,7 +58,7 @@ LayerImages::LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layo
 void LayerImages::add(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows)
 {
 	if (gpu::isDepth(VkFormat(spec.format)) || spec.samples != 1) return;
-	const uint32_t count = gpu::isCube(spec) ? spec.arrayLayers / 6 : spec.arrayLayers;
+	const uint32_t count = gpu::arraySize(spec);
 	Entry entry{image, spec, {}, poolFor(gpu_, count), {}, occupancyOf(spec, rows)};
 	const std::vector layouts(count, layout_);
 	vk::raii::DescriptorSets sets(gpu_.device, {*entry.pool, layouts});

@@ -1,5 +1,6 @@
 // Everything one panel image is made of, decided before any drawing begins. Plain values: the renderer asks nobody else.
 #pragma once
+#include "runtime/base/chroma_key.h"
 #include "runtime/base/pose.h"
 #include "runtime/device/camera.h"
 #include <array>
@@ -64,14 +65,6 @@ struct CubeView {
 /// XR_FB_composition_layer_alpha_blend: what a layer's colour and alpha, and those of what is below it, are multiplied by.
 struct BlendFactors {
 	XrBlendFactorFB sourceColor, keptColor, sourceAlpha, keptAlpha;
-};
-/// Which colour of an application's picture stands for the world behind it. Distances are between encoded values, in luma (a quarter of
-/// it) and chroma (Rec. 709).
-struct ChromaKey {
-	std::array<float, 3> colour{0, 1, 0}; ///< sRGB encoded
-	float tolerance = 0.15f;              ///< nearer than this: the world alone
-	float softness = 0.1f;                ///< from there on to the layer alone
-	bool operator==(const ChromaKey &) const = default;
 };
 struct KeyedOut {
 	ChromaKey key;

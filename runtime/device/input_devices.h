@@ -4,12 +4,19 @@
 #include "runtime/base/gamepad.h"
 #include "runtime/device/outcome.h"
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace arift
 {
+
+/// Where the system lists them: its own places, or a test's.
+struct InputPlaces {
+	std::filesystem::path devices = "/dev/input";
+	std::filesystem::path sysfs = "/sys";
+};
 
 enum class InputKind { keyboard, mouse, gamepad, other };
 

@@ -38,6 +38,8 @@ VkImageLayout boundaryLayout(VkFormat format);
 bool isDepth(VkFormat format);
 /// Six array layers are one.
 inline bool isCube(const ImageSpec &spec) { return spec.createFlags & VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT; }
+/// As XrSwapchainCreateInfo::arraySize: cubes, or array layers.
+inline uint32_t arraySize(const ImageSpec &spec) { return isCube(spec) ? spec.arrayLayers / 6 : spec.arrayLayers; }
 /// The same bits without sRGB encoding: the format in which the compositor samples an image. It decodes by itself, in the shader, what it
 /// then mixes: a software renderer would decode every channel of every texel.
 VkFormat storedFormat(VkFormat format);

@@ -2,6 +2,7 @@
 // A connection starts with Hello / Welcome. Every request has exactly one reply of the same `sequence`.
 // The frame channel (a second socket, one per session) carries WaitFrame / FrameReady and Submission.
 #pragma once
+#include "runtime/base/chroma_key.h"
 #include "runtime/gpu/image_spec.h"
 #include "runtime/ipc/pages.h"
 #include <cstdint>
@@ -343,14 +344,16 @@ struct ShutDown {
 /// How the cameras' image is put behind an application that does not ask for it. Off: as the application wants it. Alpha: by its layers'
 /// alpha, whatever it says of it. Chroma: where a layer has a colour. Underlay: where no layer is.
 enum class Forced : uint32_t { off, alpha, chroma, underlay };
+inline constexpr std::array forcedNames{"off", "alpha", "chroma", "underlay"}; ///< in its order
+constexpr const char *nameOf(Forced mode) { return forcedNames.at(size_t(mode)); }
 struct ForcePassthrough {
 	static constexpr MessageType type = MessageType::forcePassthrough;
 	Header header{type};
 	char application[128]{}; ///< its name, whether or not it is connected
 	Forced mode = Forced::off;
-	float tolerance = 0.15f, softness = 0.1f; ///< of a chroma key, 0..1 (compositor/panel_inputs.h)
-	float opacity = 1;                        ///< of its layers
-	std::array<float, 3> colour{0, 1, 0};     ///< sRGB encoded
+	float tolerance = ChromaKey().tolerance, softness = ChromaKey().softness; ///< of a chroma key, 0..1
+	float opacity = 1;                                                        ///< of its layers
+	std::array<float, 3> colour = ChromaKey().colour;
 	uint32_t reserved = 0;
 };
 

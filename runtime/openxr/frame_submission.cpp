@@ -251,9 +251,8 @@ ipc::SubImage FrameSubmission::subImage(const XrSwapchainSubImage &given, ImageK
 	if (!fits)
 		throw Error(XR_ERROR_SWAPCHAIN_RECT_INVALID, "the rectangle {}x{} at ({}, {}) does not lie in the image of {}x{}", extent.width,
 					extent.height, offset.x, offset.y, spec.width, spec.height);
-	const uint32_t arraySize = swapchain.isCube() ? spec.arrayLayers / 6 : spec.arrayLayers;
-	if (given.imageArrayIndex >= arraySize)
-		throw Error(XR_ERROR_VALIDATION_FAILURE, "imageArrayIndex {} is not below {}", given.imageArrayIndex, arraySize);
+	if (given.imageArrayIndex >= gpu::arraySize(spec))
+		throw Error(XR_ERROR_VALIDATION_FAILURE, "imageArrayIndex {} is not below {}", given.imageArrayIndex, gpu::arraySize(spec));
 	if (swapchain.isCube() != (kind == ImageKind::cube))
 		throw Error(XR_ERROR_LAYER_INVALID, "a cube is shown by cube layers, which show nothing else: the swapchain has {} array layers",
 					spec.arrayLayers);

@@ -6,22 +6,6 @@ namespace arift::openxr
 namespace
 {
 
-/// In the order of GamepadButton.
-constexpr std::array<const char *, size_t(GamepadButton::count)> buttonNames{"menu",
-																			 "view",
-																			 "a",
-																			 "b",
-																			 "x",
-																			 "y",
-																			 "dpad_down",
-																			 "dpad_right",
-																			 "dpad_up",
-																			 "dpad_left",
-																			 "shoulder_left",
-																			 "shoulder_right",
-																			 "thumbstick_left",
-																			 "thumbstick_right"};
-
 InputValue pressed(bool isPressed) { return {{isPressed ? 1.0f : 0.0f, 0}, {}}; }
 InputValue at(const XrPosef &poseInView) { return {{}, Placed{SpaceKind::view, poseInView}}; }
 
@@ -60,7 +44,8 @@ ServiceDevices::Gamepad ServiceDevices::gamepadAt(PathTable &paths, const std::s
 					.triggers = {paths.atom(user + "/input/trigger_left/value"), paths.atom(user + "/input/trigger_right/value")},
 					.thumbsticks = {paths.atom(user + "/input/thumbstick_left"), paths.atom(user + "/input/thumbstick_right")},
 					.outputs = {paths.atom(user + "/output/haptic_left"), paths.atom(user + "/output/haptic_right")}};
-	for (size_t i = 0; i < buttonNames.size(); ++i) gamepad.buttons[i] = paths.atom(user + "/input/" + buttonNames[i] + "/click");
+	for (size_t i = 0; i < gamepad.buttons.size(); ++i)
+		gamepad.buttons[i] = paths.atom(user + "/input/" + gamepadButtonNames[i] + "/click");
 	return gamepad;
 }
 

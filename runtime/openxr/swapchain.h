@@ -38,7 +38,7 @@ public:
 
 	uint32_t id() const { return allocated_.swapchain(); }
 	const gpu::ImageSpec &spec() const { return spec_; }
-	bool isCube() const { return spec_.createFlags & VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT; }
+	bool isCube() const { return gpu::isCube(spec_); }
 	XrResult describe(OutputArray<XrSwapchainImageBaseHeader> images) const;
 
 	uint32_t acquire();

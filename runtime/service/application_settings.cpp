@@ -16,7 +16,7 @@ constexpr std::array modes{XR_ENVIRONMENT_BLEND_MODE_OPAQUE, XR_ENVIRONMENT_BLEN
 ForcedPassthrough readForced(TomlTable &table)
 {
 	ForcedPassthrough forced;
-	forced.mode = ipc::Forced(table.choice("passthrough", {"off", "alpha", "chroma", "underlay"}, 0));
+	forced.mode = ipc::Forced(table.choice("passthrough", ipc::forcedNames, 0));
 	const std::string colour = table.text("color", textOf(forced.key.colour));
 	const auto parsed = colourOf(colour);
 	if (!parsed) table.complain("color", "six hexadecimal digits, RRGGBB");
@@ -63,16 +63,6 @@ const char *nameOf(XrEnvironmentBlendMode mode)
 {
 	const auto known = std::ranges::find(modes, mode);
 	return known == modes.end() ? "unknown" : modeNames[size_t(known - modes.begin())];
-}
-
-const char *nameOf(ipc::Forced mode)
-{
-	switch (mode) {
-	case ipc::Forced::alpha: return "alpha";
-	case ipc::Forced::chroma: return "chroma";
-	case ipc::Forced::underlay: return "underlay";
-	default: return "off";
-	}
 }
 
 nlohmann::json describe(const ApplicationTable &applications)

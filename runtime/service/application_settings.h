@@ -32,7 +32,6 @@ ApplicationTable readApplications(TomlTable &applications);
 std::vector<XrEnvironmentBlendMode> readBlendModes(TomlTable &table);
 
 const char *nameOf(XrEnvironmentBlendMode mode);
-const char *nameOf(ipc::Forced mode);
 
 /// For `arift status`.
 nlohmann::json describe(const ApplicationTable &applications);

@@ -103,8 +103,7 @@ void checkImage(const ipc::SubImage &image, SwapchainShape::Kind kind, const Fin
 	require(shape.has_value(), "layer names an unknown swapchain");
 	require(shape->kind == kind, "layer names a swapchain of another kind");
 	require(image.image < shape->imageCount, "layer names an image its swapchain has not");
-	const uint32_t arraySize = kind == SwapchainShape::Kind::cube ? shape->arrayLayers / 6 : shape->arrayLayers;
-	require(image.arrayIndex < arraySize, "layer names an array layer its swapchain has not");
+	require(image.arrayIndex < shape->arraySize, "layer names an array layer its swapchain has not");
 	require(image.x >= 0 && image.y >= 0 && image.width > 0 && image.height > 0, "layer rectangle is empty or begins outside");
 	// 64-bit sums: two large positive numbers must not wrap round to a small one.
 	require(int64_t(image.x) + image.width <= int64_t(shape->width) && int64_t(image.y) + image.height <= int64_t(shape->height),

@@ -32,13 +32,13 @@ void checkSpec(gpu::Device &device, const gpu::ImageSpec &spec, ipc::Sharing sha
 		throw Refused(XR_ERROR_FEATURE_UNSUPPORTED, fmt::format("an image of {} samples cannot be copied", spec.samples));
 	if (spec.inRows > (gpu::canLieInRows(device.identity().deviceType, spec) ? 1u : 0u))
 		throw Refused(XR_ERROR_FEATURE_UNSUPPORTED, "the service's images do not lie in rows");
-	if ((spec.createFlags & VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT) && (spec.width != spec.height || spec.arrayLayers % 6 != 0))
+	if (gpu::isCube(spec) && (spec.width != spec.height || spec.arrayLayers % 6 != 0))
 		throw Refused(XR_ERROR_VALIDATION_FAILURE, "a cube map needs six square faces");
 }
 
 SwapchainShape::Kind kindOf(const gpu::ImageSpec &spec)
 {
-	if (spec.createFlags & VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT) return SwapchainShape::Kind::cube;
+	if (gpu::isCube(spec)) return SwapchainShape::Kind::cube;
 	return gpu::isDepth(VkFormat(spec.format)) ? SwapchainShape::Kind::depth : SwapchainShape::Kind::flat;
 }
 
@@ -46,7 +46,7 @@ SwapchainShape::Kind kindOf(const gpu::ImageSpec &spec)
 
 SwapchainShape Swapchains::Swapchain::shape() const
 {
-	return {about.spec.width, about.spec.height, about.spec.arrayLayers, about.imageCount, kindOf(about.spec)};
+	return {about.spec.width, about.spec.height, gpu::arraySize(about.spec), about.imageCount, kindOf(about.spec)};
 }
 
 Swapchains::~Swapchains() { destroyAll(); }

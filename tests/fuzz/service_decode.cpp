@@ -16,7 +16,7 @@ std::optional<SwapchainShape> find(uint32_t swapchain)
 {
 	switch (swapchain) {
 	case 1: return SwapchainShape{640, 480, 2, 3};
-	case 2: return SwapchainShape{64, 64, 12, 3, Kind::cube};
+	case 2: return SwapchainShape{64, 64, 2, 3, Kind::cube};
 	case 3: return SwapchainShape{320, 240, 1, 3, Kind::depth};
 	default: return std::nullopt;
 	}
@@ -26,8 +26,7 @@ void checkImage(const ipc::SubImage &image, Kind kind)
 {
 	const auto shape = find(image.swapchain);
 	fuzz::require(shape && shape->kind == kind, "the swapchain is the session's, and of that kind");
-	const uint32_t layers = kind == Kind::cube ? shape->arrayLayers / 6 : shape->arrayLayers;
-	fuzz::require(image.image < shape->imageCount && image.arrayIndex < layers, "image and array layer exist");
+	fuzz::require(image.image < shape->imageCount && image.arrayIndex < shape->arraySize, "image and array layer exist");
 	fuzz::require(image.x >= 0 && image.y >= 0 && image.width > 0 && image.height > 0, "the rectangle begins inside");
 	fuzz::require(int64_t(image.x) + image.width <= shape->width && int64_t(image.y) + image.height <= shape->height,
 				  "the rectangle ends inside");

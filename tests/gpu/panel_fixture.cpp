@@ -127,6 +127,29 @@ uint64_t PanelTest::addImage(uint32_t width, uint32_t height, const LayerImage::
 	return add(std::make_unique<LayerImage>(device, width, height, texel, format, arrayLayers));
 }
 
+uint64_t PanelTest::addGreenAmongMagenta()
+{
+	return addImage(8, 4, [](uint32_t x, uint32_t y, auto) {
+		const auto &[corner, extent] = greenOnes;
+		const bool isGreen = x >= uint32_t(corner.x) && x < uint32_t(corner.x + extent.width) && y >= uint32_t(corner.y) &&
+							 y < uint32_t(corner.y + extent.height);
+		return isGreen ? std::array<uint8_t, 4>{0, 255, 0, 255} : std::array<uint8_t, 4>{255, 0, 255, 255};
+	});
+}
+
+int PanelTest::greenPixels() const
+{
+	int green = 0, others = 0;
+	for (int y = 0; y < 800; ++y)
+		for (int x = 0; x < 1280; ++x) {
+			const auto found = at(x, y);
+			green += found == std::array{0, 255, 0};
+			others += found != std::array{0, 255, 0} && found != std::array{0, 0, 0};
+		}
+	EXPECT_EQ(others, 0) << "neither green nor black";
+	return green;
+}
+
 uint64_t PanelTest::addCube(uint32_t size, const LayerImage::Texel &texel, uint32_t count)
 {
 	return add(

@@ -12,6 +12,20 @@ namespace arift
 
 using Linear = std::array<double, 3>;
 
+/// A layer of one colour in front of grey cameras: what blending makes of it is computed by hand.
+namespace by_hand
+{
+inline constexpr XrCompositionLayerFlags sourceAlpha = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
+inline constexpr XrCompositionLayerFlags unpremultiplied = sourceAlpha | XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT;
+inline constexpr auto opaque = XR_ENVIRONMENT_BLEND_MODE_OPAQUE, additive = XR_ENVIRONMENT_BLEND_MODE_ADDITIVE,
+					  alphaBlend = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
+inline constexpr uint8_t cameraValue = 51;
+inline constexpr double camera = 0.2; ///< linear
+inline constexpr std::array<uint8_t, 4> colour{102, 51, 153, 153};
+inline constexpr Linear c{0.4, 0.2, 0.6};
+inline constexpr double a = 0.6;
+} // namespace by_hand
+
 /// What a linear value is in an sRGB texel, 0..255.
 double encoded(double linear);
 
@@ -57,6 +71,11 @@ protected:
 	uint64_t addImage(uint32_t width, uint32_t height, const LayerImage::Texel &texel, VkFormat format = VK_FORMAT_R8G8B8A8_UNORM,
 					  uint32_t arrayLayers = 1);
 
+	/// An image that is pure green in this rectangle and magenta around it.
+	uint64_t addGreenAmongMagenta();
+	static constexpr XrRect2Di greenOnes{{2, 1}, {4, 2}};
+	/// Panel pixels of the last render() that are pure green, when all others are black; the test fails where they are not.
+	int greenPixels() const;
 	/// `count` cube maps in one image: six array layers of `texel` each.
 	uint64_t addCube(uint32_t size, const LayerImage::Texel &texel, uint32_t count);
 

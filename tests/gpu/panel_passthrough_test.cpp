@@ -8,12 +8,8 @@ namespace arift
 namespace
 {
 
-constexpr XrCompositionLayerFlags sourceAlpha = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
+using by_hand::a, by_hand::c, by_hand::colour, by_hand::sourceAlpha;
 constexpr Linear camera{200 / 255.0, 100 / 255.0, 50 / 255.0};
-/// Linear 0.4, 0.2, 0.6 with alpha 0.6, premultiplied.
-constexpr std::array<uint8_t, 4> colour{102, 51, 153, 153};
-constexpr Linear c{0.4, 0.2, 0.6};
-constexpr double a = 0.6;
 
 double linearOf(double code)
 {

@@ -80,20 +80,12 @@ TEST_F(ServiceDevices, AnApplicationThatSuggestedNothingForItHasNoSuchDevice)
 
 TEST_F(ServiceDevices, EveryPartOfAGamepadIsWhereItsProfileSays)
 {
-	constexpr std::array names{"menu",
-							   "view",
-							   "a",
-							   "b",
-							   "x",
-							   "y",
-							   "dpad_down",
-							   "dpad_right",
-							   "dpad_up",
-							   "dpad_left",
-							   "shoulder_left",
-							   "shoulder_right",
-							   "thumbstick_left",
-							   "thumbstick_right"};
+	const auto &names = gamepadButtonNames;
+	EXPECT_STREQ(names[size_t(GamepadButton::view)], "view");
+	EXPECT_STREQ(names[size_t(GamepadButton::b)], "b");
+	EXPECT_STREQ(names[size_t(GamepadButton::dpadDown)], "dpad_down");
+	EXPECT_STREQ(names[size_t(GamepadButton::shoulderLeft)], "shoulder_left");
+	EXPECT_STREQ(names[size_t(GamepadButton::thumbstickRight)], "thumbstick_right");
 	std::vector<XrAction> buttons;
 	std::vector<std::string> sources;
 	for (const char *name : names) {

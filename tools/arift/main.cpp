@@ -83,7 +83,7 @@ void addPassthrough(CLI::App &app)
 		if (name.empty()) return tools::listPassthrough();
 		if (!options->mode.empty()) return tools::forcePassthrough(*options);
 		if (name != "raw" && name != "holograms")
-			throw CLI::ValidationError(name, "expected an application and off, alpha, chroma or underlay; or raw or holograms alone");
+			throw CLI::ValidationError(name, "expected an application and its kind of passthrough; or raw or holograms alone");
 		tools::showRawPassthrough(name == "raw");
 	});
 }

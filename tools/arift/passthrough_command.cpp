@@ -5,6 +5,7 @@
 #include "tools/arift/monitor.h"
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -13,8 +14,6 @@ namespace arift::tools
 
 namespace
 {
-
-constexpr std::array modeNames{"off", "alpha", "chroma", "underlay"};
 
 /// What the service has for an application, or every default where it has nothing.
 nlohmann::json settingsOf(const nlohmann::json &status, const std::string &application)
@@ -34,10 +33,10 @@ std::string sentence(const nlohmann::json &settings)
 {
 	const auto mode = settings["passthrough"].get<std::string>();
 	std::string text = mode;
-	if (mode == "chroma")
+	if (mode == nameOf(ipc::Forced::chroma))
 		text += fmt::format(", color {}, tolerance {}, softness {}", settings["color"].get<std::string>(),
 							settings["tolerance"].get<double>(), settings["softness"].get<double>());
-	if (mode != "off") text += fmt::format(", opacity {}", settings["opacity"].get<double>());
+	if (mode != nameOf(ipc::Forced::off)) text += fmt::format(", opacity {}", settings["opacity"].get<double>());
 	if (settings.contains("blendModes")) {
 		text += "; blend modes";
 		for (const auto &name : settings["blendModes"]) text += " " + name.get<std::string>();
@@ -79,8 +78,8 @@ void listPassthrough()
 
 void forcePassthrough(const PassthroughOptions &options)
 {
-	const auto mode = std::ranges::find(modeNames, options.mode);
-	if (mode == modeNames.end()) throw InputError("{}: expected off, alpha, chroma or underlay", options.mode);
+	const auto mode = std::ranges::find(ipc::forcedNames, options.mode);
+	if (mode == ipc::forcedNames.end()) throw InputError("{}: expected {}", options.mode, fmt::join(ipc::forcedNames, ", "));
 	if (options.application.empty() || options.application.size() >= sizeof(ipc::ForcePassthrough::application))
 		throw InputError("\"{}\": expected the name of an application, up to {} characters", options.application,
 						 sizeof(ipc::ForcePassthrough::application) - 1);
@@ -88,7 +87,7 @@ void forcePassthrough(const PassthroughOptions &options)
 	const nlohmann::json status = statusOf(monitor), settings = settingsOf(status, options.application);
 	ipc::ForcePassthrough request;
 	ipc::copyText(request.application, options.application);
-	request.mode = ipc::Forced(mode - modeNames.begin());
+	request.mode = ipc::Forced(mode - ipc::forcedNames.begin());
 	request.colour = requireColour(options.colour.value_or(settings["color"].get<std::string>()));
 	request.tolerance = requireShare("tolerance", options.tolerance.value_or(settings["tolerance"].get<double>()));
 	request.softness = requireShare("softness", options.softness.value_or(settings["softness"].get<double>()));

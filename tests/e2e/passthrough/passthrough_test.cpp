@@ -110,14 +110,14 @@ TEST_F(Passthrough, WhatIsWrongIsExplainedAndChangesNothing)
 		EXPECT_NE(ran.status, 0) << ran.output;
 		return ran.output;
 	};
-	EXPECT_EQ(complaint({"game", "green"}), "arift: green: expected off, alpha, chroma or underlay\n");
+	EXPECT_EQ(complaint({"game", "green"}), "arift: green: expected off, alpha, chroma, underlay\n");
 	EXPECT_EQ(complaint({"game", "chroma", "--color", "green"}),
 			  "arift: --color green: expected six hexadecimal digits RRGGBB, for instance 00FF00\n");
 	EXPECT_EQ(complaint({"game", "chroma", "--tolerance", "3"}), "arift: --tolerance 3: expected a number from 0 to 1\n");
 	EXPECT_EQ(complaint({"game", "alpha", "--opacity", "-1"}), "arift: --opacity -1: expected a number from 0 to 1\n");
 	EXPECT_NE(complaint({std::string(200, 'x'), "alpha"}).find("expected the name of an application, up to 127 characters"),
 			  std::string::npos);
-	EXPECT_NE(complaint({"game"}).find("expected an application and off, alpha, chroma or underlay; or raw or holograms alone"),
+	EXPECT_NE(complaint({"game"}).find("expected an application and its kind of passthrough; or raw or holograms alone"),
 			  std::string::npos);
 	EXPECT_TRUE(service.status()["applications"].empty());
 	EXPECT_EQ(passthrough({}).output, "no application is connected, and none has settings\n");

@@ -21,7 +21,7 @@ using fake::InputModel;
 struct Evdev : testing::Test {
 	const test::TemporaryFolder folder;
 	const fake::InputFolders folders{folder.path()};
-	const Places places{folders.devices, folders.sysfs};
+	const InputPlaces places{folders.devices, folders.sysfs};
 	Devices devices{places, {"Test *"}};
 
 	/// The next thing that any device says; the test fails where nobody does.

@@ -14,7 +14,7 @@ using Kind = SwapchainShape::Kind;
 const FindSwapchain find = [](uint32_t swapchain) -> std::optional<SwapchainShape> {
 	switch (swapchain) {
 	case 1: return SwapchainShape{640, 480, 2, 3};
-	case 2: return SwapchainShape{64, 64, 12, 3, Kind::cube};
+	case 2: return SwapchainShape{64, 64, 2, 3, Kind::cube};
 	case 3: return SwapchainShape{320, 240, 1, 3, Kind::depth};
 	default: return std::nullopt;
 	}
