@@ -74,7 +74,7 @@ TEST(FrameMemory, IsUsedAgainTurnByTurn)
 class Source final : public FrameSource
 {
 public:
-	explicit Source(std::vector<PanelLayer> layers) : layers_(std::move(layers)) {}
+	explicit Source(std::vector<PanelLayer> layers, XrEnvironmentBlendMode mode) : layers_(std::move(layers)), mode_(mode) {}
 	void wake(const Opportunity &) override {}
 	std::shared_ptr<const FrameContent> content() override
 	{
@@ -83,9 +83,12 @@ public:
 			for (size_t eye = 0; eye < 2; ++eye) {
 				if (layer.projection[eye]) layer.projection[eye]->texture.content = number_;
 				if (layer.quad[eye]) layer.quad[eye]->texture.content = number_;
+				if (layer.curved[eye]) layer.curved[eye]->texture.content = number_;
+				if (layer.cube[eye]) layer.cube[eye]->texture.content = number_;
 			}
 		auto content = std::make_shared<FrameContent>();
 		content->frame = number_++;
+		content->blendMode = mode_;
 		content->layers = layers_;
 		isCounted = before;
 		return content;
@@ -94,29 +97,58 @@ public:
 
 private:
 	std::vector<PanelLayer> layers_;
+	const XrEnvironmentBlendMode mode_;
 	uint64_t number_ = 1;
 };
 
+constexpr uint64_t viewsKey = 1, cubesKey = 2;
+constexpr XrRect2Di part{{0, 0}, {64, 64}};
+
 class Frames : public PanelTest
 {
+protected:
+	Frames() { seeGrey(100); }
+	static std::array<uint8_t, 4> texel(uint32_t x, uint32_t y) { return {10, 20, 30, uint8_t(x < 100 ? 0 : y < 100 ? 255 : 128)}; }
+	PanelLayer &add() { return layers.emplace_back(PanelLayer{.flags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT}); }
+	PanelLayer &addViews()
+	{
+		PanelLayer &layer = add();
+		for (size_t eye = 0; eye < 2; ++eye)
+			layer.projection[eye] = ProjectionView{rig.eyeInHead[eye], {-1.2f, 1.2f, 1.2f, -1.2f}, {viewsKey, 0, {{0, 0}, {300, 300}}}};
+		return layer;
+	}
+	PanelLayer &addQuadAt(float x)
+	{
+		PanelLayer &layer = add();
+		for (auto &each : layer.quad) each = QuadView{{identityOrientation, {x, 0, -1}}, {0.3f, 0.3f}, {viewsKey, 0, part}};
+		return layer;
+	}
+	void addCurved(Surface surface)
+	{
+		for (auto &each : add().curved)
+			each = CurvedView{.surface = surface,
+							  .centreInFrame = identityPose,
+							  .radius = 1,
+							  .uvAhead = {0.5f, 0.5f},
+							  .uvPerUnit = {1, -1.5f},
+							  .texture = {viewsKey, 0, part}};
+	}
+	void addCube()
+	{
+		for (auto &each : add().cube) each = CubeView{identityOrientation, {cubesKey, 0, part}};
+	}
+	/// Of 30 frames of these layers, when the first ones have found out how much is wanted.
+	void countAllocations(const char *of, XrEnvironmentBlendMode mode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND);
+
+	std::vector<PanelLayer> layers;
 };
 
-TEST_F(Frames, AllocateNothing)
+void Frames::countAllocations(const char *of, XrEnvironmentBlendMode mode)
 {
-	seeGrey(100);
-	const auto texel = [](uint32_t x, uint32_t y, uint32_t) {
-		return std::array<uint8_t, 4>{10, 20, 30, uint8_t(x < 100 ? 0 : y < 100 ? 255 : 128)};
-	};
-	const LayerImage views(device, 300, 300, texel, VK_FORMAT_R8G8B8A8_SRGB);
-	std::vector<PanelLayer> layers(1, PanelLayer{.flags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT});
-	for (size_t eye = 0; eye < 2; ++eye)
-		layers[0].projection[eye] = ProjectionView{rig.eyeInHead[eye], {-1.2f, 1.2f, 1.2f, -1.2f}, {1, 0, {{0, 0}, {300, 300}}}};
-	for (int i = 0; i < 4; ++i) {
-		PanelLayer &quad = layers.emplace_back(PanelLayer{.flags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT});
-		for (auto &each : quad.quad)
-			each = QuadView{{identityOrientation, {0.2f * float(i), 0, -1}}, {0.3f, 0.3f}, {1, 0, {{0, 0}, {64, 64}}}};
-	}
-
+	const LayerImage views(
+		device, 300, 300, [](auto x, auto y, auto) { return texel(x, y); }, VK_FORMAT_R8G8B8A8_SRGB);
+	const LayerImage cubes(
+		device, 64, 64, [](auto x, auto y, auto) { return texel(x, y); }, VK_FORMAT_R8G8B8A8_SRGB, 6, VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT);
 	const auto clock = makeRealClock(); // a stepped one keeps a list of those who sleep
 	const ipc::SharedPage<ipc::SystemPage> page{"test"};
 	const ipc::SharedPage<PoseRing> poses{"test"};
@@ -130,19 +162,70 @@ TEST_F(Frames, AllocateNothing)
 		}};
 	Compositor compositor(surroundings, Pacer({.period = period}, clock->now()),
 						  makePanel(renderer, makeOffscreenTarget(*clock, period), makeOffscreenTarget(*clock, period)));
-	compositor.addImage(1, views.image(), views.spec(), nullptr, views.rows());
-	compositor.addSource(std::make_shared<Source>(layers));
+	compositor.addImage(viewsKey, views.image(), views.spec(), nullptr, views.rows());
+	compositor.addImage(cubesKey, cubes.image(), cubes.spec(), nullptr, cubes.rows());
+	compositor.addSource(std::make_shared<Source>(layers, mode));
 	const auto areShown = [&](uint64_t frames) {
 		const XrTime limit = realTime() + 60 * second;
 		while (compositor.figures(false).shown < frames && realTime() < limit) std::this_thread::sleep_for(std::chrono::milliseconds(2));
 		return compositor.figures(false).shown >= frames;
 	};
-	ASSERT_TRUE(areShown(30)); // the first frames find out how much is wanted
+	ASSERT_TRUE(areShown(30));
 	const int before = allocations;
 	ASSERT_TRUE(areShown(60));
 	const int made = allocations - before;
-	std::fprintf(stderr, "[ FIGURE   ] allocations in 30 frames: %d\n", made);
+	std::fprintf(stderr, "[ FIGURE   ] allocations in 30 frames of %s: %d\n", of, made);
 	EXPECT_EQ(made, 0);
+}
+
+TEST_F(Frames, OfViewsAndQuadsAllocateNothing)
+{
+	addViews();
+	for (int i = 0; i < 4; ++i) addQuadAt(0.2f * float(i));
+	countAllocations("views and quads");
+}
+
+TEST_F(Frames, OfCurvedLayersAndCubesAllocateNothing)
+{
+	addViews().colorScale.a = 0.5f;
+	addCurved(Surface::cylinder);
+	addCurved(Surface::sphere);
+	addCube();
+	countAllocations("cylinders, spheres and cubes");
+}
+
+TEST_F(Frames, WithBlendFactorsAllocateNothing)
+{
+	addViews();
+	addCube();
+	addQuadAt(0).factors = {XR_BLEND_FACTOR_ZERO_FB, XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB, XR_BLEND_FACTOR_ZERO_FB,
+							XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB};
+	countAllocations("layers with blend factors");
+}
+
+TEST_F(Frames, OfLayersThatAreAddedToTheWorldAllocateNothing)
+{
+	addViews();
+	addQuadAt(0);
+	countAllocations("layers that are added to the world", XR_ENVIRONMENT_BLEND_MODE_ADDITIVE);
+}
+
+TEST_F(Frames, OfKeyedLayersAllocateNothing)
+{
+	addViews().key = KeyedOut{};
+	addQuadAt(0).key = KeyedOut{.key = {}, .opacity = 0.5f};
+	countAllocations("keyed layers");
+}
+
+TEST_F(Frames, WithPassthroughLayersAllocateNothing)
+{
+	addViews();
+	layers.push_back({.passthrough = PassthroughStyle{.opacity = 0.5f}});
+	addQuadAt(0);
+	layers.push_back({.passthrough = PassthroughStyle{.opacity = 0.5f, .edge = {1, 0, 0, 1}, .brightness = 10}});
+	layers.push_back({.passthrough = PassthroughStyle{.opacity = 0.5f, .map = LayerTexture{.image = viewsKey, .rect = part}}});
+	addQuadAt(0.3f);
+	countAllocations("layers below and above passthrough layers");
 }
 
 } // namespace
