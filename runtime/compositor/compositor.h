@@ -26,6 +26,7 @@ struct Surroundings {
 	std::array<CameraFeed *, 2> cameras{};
 	Trace *trace = nullptr;             ///< null: none is wanted
 	std::function<void()> threadBegins; ///< called first by the compositor's thread
+	bool nearerOver = true;             ///< applications' layers by distance, else those of who began later over the others'
 };
 
 struct Picture {

@@ -1,5 +1,7 @@
 #include "runtime/compositor/compositor_loop.h"
 #include "runtime/base/log.h"
+#include "runtime/compositor/layer_order.h"
+#include "runtime/motion/view_poses.h"
 #include <ctime>
 
 namespace arift
@@ -47,15 +49,26 @@ std::vector<Compositor::Loop::ImageChange> Compositor::Loop::take(Frame &frame)
 	return changes;
 }
 
-void Compositor::Loop::latchLayers(Frame &frame, Latched &latched) const
+void Compositor::Loop::latchLayers(Frame &frame, const XrPosef &head, Latched &latched) const
 {
-	for (const auto &source : frame.sources) {
-		const auto content = frame.contents.emplace_back(source->content());
-		if (!content || frame.settings.rawPassthrough) continue;
-		// The topmost application decides, overlays do not, unless they bring the world with them.
-		if (source->order() == 0 || content->hidesOthers) latched.blendMode = content->blendMode;
-		if (content->hidesOthers) latched.layers.clear();
-		latched.layers.insert(latched.layers.end(), content->layers.begin(), content->layers.end());
+	for (const auto &source : frame.sources) frame.contents.push_back(source->content());
+	if (frame.settings.rawPassthrough) return;
+	FrameVector<std::span<const PanelLayer>> together; // of sources with the same order
+	for (size_t i = 0; i < frame.sources.size(); ++i) {
+		const uint64_t order = frame.sources[i]->order();
+		if (const auto &content = frame.contents[i]) {
+			// Among main applications the world is behind all of them, and the topmost one decides how it is seen. An overlay's hides
+			// theirs.
+			const bool hidesOthers = content->hidesOthers && order > 0;
+			if (order == 0 || hidesOthers) latched.blendMode = content->blendMode;
+			if (hidesOthers) latched.layers.clear();
+			if (hidesOthers) together.clear();
+			together.push_back(content->layers);
+		}
+		const bool isLast = i + 1 == frame.sources.size() || frame.sources[i + 1]->order() != order;
+		if (!isLast && surroundings_.nearerOver) continue;
+		mergeByDistance(together, head, latched.layers);
+		together.clear();
 	}
 }
 
@@ -127,10 +140,10 @@ void Compositor::Loop::choose(const Pacer::Refresh &refresh, Frame &frame)
 	Latched latched{.layers = std::move(layers_), .passthroughDistance = frame.settings.passthroughDistance};
 	for (size_t eye = 0; eye < 2; ++eye)
 		if (surroundings_.cameras[eye]) latched.cameras[eye] = surroundings_.cameras[eye]->newest();
-	latchLayers(frame, latched);
 	const PoseMoment poses = surroundings_.poses.now(); // one moment for all of the frame
 	if (poses.newest()) frame.newest = *poses.newest();
 	if (const auto views = surroundings_.page.views.read()) views_ = *views;
+	latchLayers(frame, headInOrigin(views_, poses.at(refresh.display)), latched);
 	frame.inputs = assemble(surroundings_.rig, views_, poses, refresh.display, std::move(latched));
 	fade_.apply(frame.inputs);
 	wake(frame.sources, refresh); // they draw for the refresh after this one while this one is drawn

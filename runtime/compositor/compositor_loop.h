@@ -66,7 +66,7 @@ private:
 	void changeImages(std::vector<ImageChange> changes);
 	/// Takes over what others have handed in; says what images came and went.
 	std::vector<ImageChange> take(Frame &frame);
-	void latchLayers(Frame &frame, Latched &latched) const;
+	void latchLayers(Frame &frame, const XrPosef &head, Latched &latched) const;
 	void publishTiming(const Pacer::Refresh &refresh);
 	void wake(const Sources &sources, const Pacer::Refresh &refresh);
 	void choose(const Pacer::Refresh &refresh, Frame &frame);

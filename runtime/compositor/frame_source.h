@@ -13,7 +13,8 @@ struct FrameContent {
 	XrTime received = 0; ///< when the finished submission came
 	XrEnvironmentBlendMode blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
 	std::vector<PanelLayer> layers; ///< bottom first
-	/// The world lies below its layers, in front of whatever others show below: XR_FB_passthrough's layers are the cameras' image.
+	/// The world lies below its layers, an overlay's in front of whatever others show below: XR_FB_passthrough's layers are the cameras'
+	/// image.
 	bool hidesOthers = false;
 };
 
@@ -24,8 +25,8 @@ public:
 	virtual ~FrameSource() = default;
 	/// Of the session, for people.
 	virtual uint32_t number() const { return 0; }
-	/// The lowest is drawn first; those with the same in the order in which they were added. More than 0: an overlay, which leaves the
-	/// world as it is.
+	/// The lowest is drawn first; those with the same by distance (Surroundings::nearerOver), or in the order in which they were added.
+	/// More than 0: an overlay, which leaves the world as it is.
 	virtual uint64_t order() const { return 0; }
 	/// A refresh an application can still draw for, when it is woken now.
 	struct Opportunity {

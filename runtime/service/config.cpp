@@ -66,6 +66,7 @@ Config decode(std::shared_ptr<const TomlDocument> document)
 
 	TomlTable compositor = root.table("compositor");
 	config.target = TargetKind(compositor.choice("target", {"auto", "offscreen", "window"}, size_t(config.target)));
+	config.nearerOver = compositor.choice("applications", {"by_distance", "by_start"}, config.nearerOver ? 0 : 1) == 0;
 	compositor.finish();
 
 	TomlTable swapchains = root.table("swapchains");

@@ -35,6 +35,7 @@ struct Config {
 	double eyeHeight = 1.6;                        ///< [space] eye_height, metres
 	std::array<double, 2> bounds{2, 2};            ///< [space] bounds, metres
 	TargetKind target = TargetKind::automatic;     ///< [compositor] target
+	bool nearerOver = true;                        ///< [compositor] applications: by distance, else by start
 	ImageSharing images = ImageSharing::automatic; ///< [swapchains] images
 	InputSettings input;                           ///< [input]
 };

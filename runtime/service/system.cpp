@@ -150,7 +150,8 @@ void System::compose(const std::shared_ptr<Composition> &composition)
 						*world_.system,
 						{&feeds_[0], right},
 						world_.trace.get(),
-						realtimeFor("compositor")});
+						realtimeFor("compositor"),
+						world_.config.nearerOver});
 	composedSince_ = realTime();
 	*composition_.lock() = composition;
 }

@@ -88,7 +88,7 @@ TEST_F(Passthrough, IsSwitchedByTheCommandWhileTheApplicationRuns)
 	EXPECT_EQ(settings[0]["color"], "FF00FF");
 	EXPECT_EQ(settings[0]["tolerance"], 0.02) << "what is not given stays";
 	const std::string kept = contentOf(service.tree().root() / "config/arift/overrides.toml");
-	EXPECT_NE(kept.find("color = 'FF00FF'"), std::string::npos) << kept;
+	EXPECT_NE(kept.find("color = \"FF00FF\""), std::string::npos) << kept;
 	const Ran list = passthrough({});
 	EXPECT_EQ(list.output, "passthrough_application: chroma, color FF00FF, tolerance 0.02, softness 0.1, opacity 1\n");
 }

@@ -64,14 +64,14 @@ private:
 class FakeSource final : public FrameSource
 {
 public:
-	explicit FakeSource(uint64_t image, uint64_t order = 0, bool hidesOthers = false) : order_(order)
+	explicit FakeSource(uint64_t image, uint64_t order = 0, bool hidesOthers = false, float ahead = 0) : order_(order)
 	{
 		auto made = std::make_shared<FrameContent>();
 		made->frame = 1;
 		made->blendMode = hidesOthers ? XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND : XR_ENVIRONMENT_BLEND_MODE_ADDITIVE;
 		made->hidesOthers = hidesOthers;
 		made->layers.resize(1);
-		made->layers[0].quad[0] = QuadView{identityPose, {1, 1}, {.image = image}};
+		made->layers[0].quad[0] = QuadView{{identityPose.orientation, {0, 0, -ahead}}, {1, 1}, {.image = image}};
 		content_ = std::move(made);
 	}
 	void wake(const Opportunity &opportunity) override
@@ -100,13 +100,28 @@ protected:
 	{
 		PoseWriter writer(*poses_);
 		writer.push({.time = clock_->now() - 5 * millisecond}); // at rest
-		compositor_ = std::make_unique<Compositor>(Surroundings{*clock_, rig_, PoseHistory(*poses_), *page_, {&feeds_[0], nullptr}},
-												   Pacer(pacing, clock_->now()), std::make_unique<FakePanel>(*clock_, drawn_));
+		begin();
+	}
+
+	void begin(bool nearerOver = true)
+	{
+		compositor_.reset();
+		compositor_ = std::make_unique<Compositor>(
+			Surroundings{*clock_, rig_, PoseHistory(*poses_), *page_, {&feeds_[0], nullptr}, nullptr, {}, nearerOver},
+			Pacer(pacing, clock_->now()), std::make_unique<FakePanel>(*clock_, drawn_));
 	}
 
 	/// Lets simulated time go on by so many refreshes, while this thread sleeps on the clock.
 	void run(int refreshes) { clock_->sleepUntil(clock_->now() + refreshes * period, {}); }
 	std::vector<Drawn> drawn() { return *drawn_.lock(); }
+	/// Of the layers drawn last, bottom first.
+	std::vector<uint64_t> imagesShown()
+	{
+		std::vector<uint64_t> images;
+		const auto drawnLast = drawn().back();
+		for (const PanelLayer &layer : drawnLast.inputs.layers) images.push_back(layer.quad[0]->texture.image);
+		return images;
+	}
 
 	const Rig rig_{.eyeInHead = {identityPose, identityPose}, .cameras = {}};
 	std::unique_ptr<Clock> clock_;
@@ -188,12 +203,6 @@ TEST_F(CompositorTest, SourcesAreDrawnInTheirOrderWheneverTheyCame)
 		compositor_->addImage(image, VkImage(1), {}, nullptr);
 		compositor_->addSource(sources.emplace_back(std::make_shared<FakeSource>(image, order, hidesOthers)));
 	};
-	const auto imagesShown = [&] {
-		std::vector<uint64_t> images;
-		const auto drawnLast = drawn().back();
-		for (const PanelLayer &layer : drawnLast.inputs.layers) images.push_back(layer.quad[0]->texture.image);
-		return images;
-	};
 	add(1, 9);
 	run(2);
 	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND) << "an overlay alone leaves the world as it is";
@@ -208,6 +217,19 @@ TEST_F(CompositorTest, SourcesAreDrawnInTheirOrderWheneverTheyCame)
 	run(2);
 	EXPECT_EQ(imagesShown(), (std::vector<uint64_t>{6, 1, 5})) << "an overlay with the world behind it hides what is below";
 	EXPECT_EQ(drawn().back().inputs.blendMode, XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND);
+}
+
+TEST_F(CompositorTest, NearerApplicationsAreOverFartherOnesUnlessTheyAreToStayInTheirOrder)
+{
+	for (const bool nearerOver : {true, false}) {
+		begin(nearerOver);
+		const auto near = std::make_shared<FakeSource>(1, 0, true, 1.0f), far = std::make_shared<FakeSource>(2, 0, true, 3.0f);
+		const auto overlay = std::make_shared<FakeSource>(3, 1, false, 9.0f);
+		for (const auto &source : {overlay, near, far}) compositor_->addSource(source);
+		run(2);
+		EXPECT_EQ(imagesShown(), nearerOver ? (std::vector<uint64_t>{2, 1, 3}) : (std::vector<uint64_t>{1, 2, 3}))
+			<< "main applications share the world; an overlay is over them";
+	}
 }
 
 TEST_F(CompositorTest, RawPassthroughShowsNoLayerAndApplicationsGoOn)

@@ -54,6 +54,7 @@ eye_height = 1.2
 bounds = [3, 4.5]
 [compositor]
 target = "offscreen"
+applications = "by_start"
 [swapchains]
 images = "copy"
 [synthetic]
@@ -62,6 +63,7 @@ motion = "rest"
 recording = "walk"
 )");
 	EXPECT_EQ(config.driver, "synthetic");
+	EXPECT_FALSE(config.nearerOver);
 	EXPECT_EQ(config.rig, "other");
 	EXPECT_EQ(config.clock, ClockMode::scaled);
 	EXPECT_EQ(config.rate, 0.25);
