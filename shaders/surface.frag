@@ -1,11 +1,12 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// One pixel of a layer that is not plain: on a cylinder, a sphere or a cube, or with scaled colour or blend factors of its own. Over what is
-// there, in linear light; every colour at its own place, and with its own alpha.
+// One pixel of a layer that is not plain: on a cylinder, a sphere or a cube, as far away as a projection view's depth says, or with scaled
+// colour or blend factors of its own. Over what is there, in linear light; every colour at its own place, and with its own alpha.
 #include "panel_lens.glsl"
 
 layout(constant_id = 69) const int surface = 1;              // Surface (compositor/panel_inputs.h)
-const int surfaceFlat = 1, surfaceCylinder = 2, surfaceSphere = 3;
+const int surfaceCylinder = 2, surfaceSphere = 3;
+const bool curved = surface == surfaceCylinder || surface == surfaceSphere;
 
 #ifdef ARIFT_CUBE
 layout(set = 1, binding = 0) uniform samplerCube layerTexture; // light: its format decodes
@@ -24,6 +25,12 @@ layout(location = 9) flat in vec4 source;
 layout(location = 10) flat in vec4 kept;
 layout(location = 11) flat in vec4 texels;
 layout(location = 12) flat in vec2 size;
+#ifdef ARIFT_DEPTH
+layout(set = 3, binding = 0) uniform sampler2D depthTexture;
+layout(location = 13) flat in vec4 depthTexel;
+layout(location = 14) flat in vec4 depthBounds;
+layout(location = 15) flat in vec4 depthSearch;
+#endif
 
 layout(location = 0, index = 0) out vec4 light;
 layout(location = 0, index = 1) out vec4 cover;              // how much of what is there it takes away
@@ -47,7 +54,7 @@ void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there)
 /// Where a ray meets the surface, from inside: flat: texel; else angle to the right, and angle up or height in radii. z > 0: it does.
 vec3 met(vec3 ray)
 {
-	if (surface == surfaceFlat) return vec3(ray.xy * (1.0 / ray.z), ray.z);
+	if (!curved) return vec3(ray.xy * (1.0 / ray.z), ray.z);
 	// (origin + along ray) has the length 1, the farther of both times; for a cylinder, without its y.
 	const vec3 flattened = surface == surfaceCylinder ? vec3(1.0, 0.0, 1.0) : vec3(1.0);
 	const vec3 r = ray * flattened, o = origin * flattened;
@@ -58,7 +65,7 @@ vec3 met(vec3 ray)
 	return vec3(atan(place.x, -place.z), up, square >= 0.0 ? along : -1.0);
 }
 
-vec2 texelOf(vec3 place) { return surface == surfaceFlat ? place.xy : placing.xy + place.xy * placing.zw; }
+vec2 texelOf(vec3 place) { return curved ? placing.xy + place.xy * placing.zw : place.xy; }
 
 /// One colour and its alpha between the four texels around a place, after decoding them; nothing beyond the sub-image.
 vec2 sampled(vec3 place, int channel, out float there)
@@ -80,12 +87,64 @@ vec2 sampled(vec3 place, int channel, out float there)
 vec3 redOf(vec3 green, vec3 blue, float redFromBlue)
 {
 	vec2 apart = blue.xy - green.xy;
-	if (surface != surfaceFlat) apart.x -= turn * round(apart.x / turn);
+	if (curved) apart.x -= turn * round(apart.x / turn);
 	vec2 red = green.xy + apart * redFromBlue;
-	if (surface != surfaceFlat) red.x -= turn * round(red.x / turn);
+	if (curved) red.x -= turn * round(red.x / turn);
 	return vec3(red, green.z);
 }
 
+#ifdef ARIFT_DEPTH
+/// Where a ray passes at `nearness`, 1 / distance along it.
+vec3 placeAt(vec3 ray, float nearness) { return met(ray + origin * nearness); }
+
+/// A place in the image as one in the depth image, whose texels begin at integers.
+vec3 inDepthImage(vec3 place) { return vec3(place.xy * depthTexel.xy + place.z * depthTexel.zw, place.z); }
+
+/// The nearness at which the ray would have to meet what the view shows where the ray passes, there in the depth image. Never NaN, whatever
+/// the image holds.
+float shownNearness(vec3 place)
+{
+	const ivec2 texel = clamp(ivec2(place.xy * (1.0 / place.z)), ivec2(depthBounds.xy), ivec2(depthBounds.zw));
+	const float inverse = depthSearch.x + depthSearch.y * texelFetch(depthTexture, texel, 0).r;
+	return inverse > 0.0 ? place.z * min(inverse, depthSearch.z) : 0.0;
+}
+
+/// The first thing that the ray meets, from the viewer on: between two steps it goes behind what the view shows. On a plane the chord finds
+/// the very place. Where what is shown comes nearer by more than a step, an edge lies between both: either the ray meets what is behind the
+/// edge, or it passes into what the view did not see. Nothing is known of that, and it shows what is beside the edge and farther away, drawn
+/// out over the hole: in a hologram's view mostly nothing.
+float metNearness(vec3 ray)
+{
+	const int steps = int(depthSearch.w);
+	const float most = depthSearch.z * max(ray.z, 0.0), apart = most / depthSearch.w;
+	const vec3 from = inDepthImage(ray), along = inDepthImage(origin);
+	float before = most, shownBefore = shownNearness(from + along * before), now = before, shown = shownBefore;
+	for (int step = 1; step <= steps; ++step) {
+		now = most - apart * float(step);
+		shown = shownNearness(from + along * now);
+		if (shown >= now) break;
+		before = now;
+		shownBefore = shown;
+	}
+	const float behind = shown - now, inFront = before - shownBefore;
+	if (shown - shownBefore > apart) return min(shown, before);
+	return mix(now, before, clamp(behind / max(behind + inFront, 1e-9), 0.0, 1.0));
+}
+
+/// All colours are as far away as green: where edges move by much, red and blue have theirs a few pixels off.
+void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there)
+{
+	const vec3 across = rayMatrix[0] * seen.tangents.x + rayMatrix[1] * seen.tangents.y;
+	const float nearness = metNearness(rayMatrix[2] + across);
+	const vec3 green = placeAt(rayMatrix[2] + across, nearness);
+	const vec3 blue = placeAt(rayMatrix[2] + across * seen.chromatic.blue, nearness);
+	const vec3 red = redItself ? placeAt(rayMatrix[2] + across * seen.chromatic.red, nearness)
+							   : redOf(green, blue, seen.chromatic.redFromBlue);
+	const vec2 r = sampled(red, 0, there.x), g = sampled(green, 1, there.y), b = sampled(blue, 2, there.z);
+	colour = vec3(r.x, g.x, b.x);
+	alpha = vec3(r.y, g.y, b.y);
+}
+#else
 void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there)
 {
 	const vec3 across = rayMatrix[0] * seen.tangents.x + rayMatrix[1] * seen.tangents.y;
@@ -95,6 +154,7 @@ void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there)
 	colour = vec3(r.x, g.x, b.x);
 	alpha = vec3(r.y, g.y, b.y);
 }
+#endif
 #endif
 
 void main()

@@ -22,6 +22,11 @@ layout(location = 9) flat out vec4 source;
 layout(location = 10) flat out vec4 kept;
 layout(location = 11) flat out vec4 texels;
 layout(location = 12) flat out vec2 size;
+#ifdef ARIFT_DEPTH
+layout(location = 13) flat out vec4 depthTexel;
+layout(location = 14) flat out vec4 depthBounds;
+layout(location = 15) flat out vec4 depthSearch;
+#endif
 
 void main()
 {
@@ -41,4 +46,9 @@ void main()
 	kept = block.kept;
 	texels = block.texels;
 	size = block.size.xy;
+#ifdef ARIFT_DEPTH
+	depthTexel = block.depthTexel;
+	depthBounds = block.depthBounds;
+	depthSearch = block.depthSearch;
+#endif
 }

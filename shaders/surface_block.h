@@ -20,6 +20,11 @@ struct SurfaceBlock {
 	vec4 kept;        ///< the same of what is below it
 	vec4 texels;      ///< 1 where: x: they are sRGB encoded; y: their alpha counts as 1; z: scale and bias apply; w: colour is straight
 	vec4 size;        ///< xy: texture coordinate per texel
+	// Deep alone, where `ray` is as of a flat layer that is infinitely far away, and its columns' w what the eye's place adds to (x w, y w,
+	// w), by 1 / distance along the ray:
+	vec4 depthTexel;  ///< place in the depth image, whose texels begin at integers = texel * xy + zw
+	vec4 depthBounds; ///< its first and last texel: xy, zw
+	vec4 depthSearch; ///< 1 / distance ahead = x + y value; z: the largest that counts; w: steps from there to 0
 };
 
 #ifdef __cplusplus

@@ -35,6 +35,8 @@ void describeCamera(shaders::EyeBlock &block, const CameraView &view)
 	describeSites(block, view.frame);
 }
 
+} // namespace
+
 bool isFinite(const MatrixByBand &matrices)
 {
 	for (const glm::dmat3 &m : matrices)
@@ -43,8 +45,6 @@ bool isFinite(const MatrixByBand &matrices)
 				if (!std::isfinite(m[column][row]) || std::abs(m[column][row]) > 1e9) return false;
 	return true;
 }
-
-} // namespace
 
 shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band)
 {
@@ -56,9 +56,9 @@ shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band)
 	return block;
 }
 
-std::array<std::array<EyeAtLine, 2>, bandCount + 1> eyesByBand(const PanelInputs &inputs, const TileGrid &grid, uint32_t height)
+EyesByBand eyesByBand(const PanelInputs &inputs, const TileGrid &grid, uint32_t height)
 {
-	std::array<std::array<EyeAtLine, 2>, bandCount + 1> eyes;
+	EyesByBand eyes;
 	for (uint32_t band = 0; band <= bandCount; ++band)
 		eyes[band] = eyesAtLine(inputs, (grid.bandBegin(band) - 0.5) / std::max(height - 1.0, 1.0));
 	return eyes;
@@ -94,8 +94,7 @@ shaders::EyeBlock eyeBlock(const EyeDraw &draw, uint32_t band, const MatrixByBan
 	return block;
 }
 
-std::optional<MatrixByBand> layerMatrices(const PanelLayer &layer, size_t eye,
-										  const std::array<std::array<EyeAtLine, 2>, bandCount + 1> &eyes)
+std::optional<MatrixByBand> layerMatrices(const PanelLayer &layer, size_t eye, const EyesByBand &eyes)
 {
 	MatrixByBand matrices;
 	for (uint32_t band = 0; band <= bandCount; ++band) {

@@ -12,8 +12,9 @@ namespace arift
 /// A camera image older than this when it is shown says so: it is dimmed and framed in amber. (Without an image there is a calm pattern.)
 constexpr XrDuration staleAge = 250 * millisecond;
 
-/// Both eyes at the top of every band of `grid` and at the bottom of the last one.
-std::array<std::array<EyeAtLine, 2>, bandCount + 1> eyesByBand(const PanelInputs &inputs, const TileGrid &grid, uint32_t height);
+/// Both eyes at the top of every band and at the bottom of the last.
+using EyesByBand = std::array<std::array<EyeAtLine, 2>, bandCount + 1>;
+EyesByBand eyesByBand(const PanelInputs &inputs, const TileGrid &grid, uint32_t height);
 
 /// The camera image an eye shows; null where there is none the Rig knows how to show.
 const CameraView *cameraOf(const PanelInputs &inputs, const PanelOptics &optics, size_t eye);
@@ -28,12 +29,14 @@ struct EyeDraw {
 /// `camera`: cameraMatrix() by band, or directionMatrix() without a camera.
 shaders::EyeBlock eyeBlock(const EyeDraw &draw, uint32_t band, const MatrixByBand &camera);
 
+/// Whether what is drawn with them makes sense.
+bool isFinite(const MatrixByBand &matrices);
+
 /// What a shader interpolates within a band.
 shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band);
 
 /// The layer's uv matrices by band; nothing where this eye does not see it.
-std::optional<MatrixByBand> layerMatrices(const PanelLayer &layer, size_t eye,
-										  const std::array<std::array<EyeAtLine, 2>, bandCount + 1> &eyes);
+std::optional<MatrixByBand> layerMatrices(const PanelLayer &layer, size_t eye, const EyesByBand &eyes);
 const LayerTexture &textureOf(const PanelLayer &layer, size_t eye);
 bool isOpaque(const PanelLayer &layer);
 /// `width` and `height` of the whole image, texels.

@@ -8,9 +8,16 @@ namespace arift
 namespace
 {
 
-bool lies(const LayerTexture &texture, const gpu::ImageSpec &spec, Surface surface)
+enum class Kind { flat, cube, depth };
+Kind kindOf(const gpu::ImageSpec &spec)
 {
-	if (gpu::isCube(spec) != (surface == Surface::cube)) return false;
+	if (gpu::isDepth(VkFormat(spec.format))) return Kind::depth;
+	return gpu::isCube(spec) ? Kind::cube : Kind::flat;
+}
+
+bool lies(const LayerTexture &texture, const gpu::ImageSpec &spec, Kind kind)
+{
+	if (kindOf(spec) != kind) return false;
 	const XrOffset2Di &corner = texture.rect.offset;
 	const XrExtent2Di &extent = texture.rect.extent;
 	return corner.x >= 0 && corner.y >= 0 && extent.width > 0 && extent.height > 0 &&
@@ -55,8 +62,12 @@ void addRect(Drawing &drawing, const PixelRect &rect)
 class EyeDrawing
 {
 public:
-	EyeDrawing(Drawing &drawing, const EyeDraw &draw, const FindImage &findImage)
-		: drawing_(drawing), draw_(draw), findImage_(findImage), eyes_(eyesByBand(draw.inputs, draw.grid, draw.geometry.height))
+	EyeDrawing(Drawing &drawing, const EyeDraw &draw, const FindImage &findImage, const IsReady &isReady)
+		: drawing_(drawing),
+		  draw_(draw),
+		  findImage_(findImage),
+		  isReady_(isReady),
+		  eyes_(eyesByBand(draw.inputs, draw.grid, draw.geometry.height))
 	{
 	}
 
@@ -100,12 +111,20 @@ private:
 		if (surface == Surface::none) return;
 		const LayerTexture &texture = textureOf(layer, draw_.eye);
 		const auto image = findImage_(texture);
-		if (!image || !lies(texture, *image->spec, surface)) return;
-		surfaces_[index] = isPlain(layer) && !gathers_ ? Surface::none : surface;
+		if (!image || !lies(texture, *image->spec, surface == Surface::cube ? Kind::cube : Kind::flat)) return;
+		surfaces_[index] = isDeep(layer) ? Surface::deep : isPlain(layer) && !gathers_ ? Surface::none : surface;
 		if (surfaces_[index] == Surface::none)
 			addPlain(index, layer, *image);
 		else
 			addSurface(index, layer, *image);
+	}
+
+	bool isDeep(const PanelLayer &layer) const
+	{
+		if (!seesDepth(layer, draw_.eye, eyes_)) return false;
+		const LayerTexture &depth = layer.projection[draw_.eye]->depth->texture;
+		const auto image = findImage_(depth);
+		return image && lies(depth, *image->spec, Kind::depth) && isReady_(deepKey(draw_.geometry.throughLens));
 	}
 
 	void addPlain(size_t index, const PanelLayer &layer, const KnownImage &image)
@@ -127,13 +146,15 @@ private:
 	/// Where its image is empty, a layer may have a bias, or hide what is below it.
 	void addSurface(size_t index, const PanelLayer &layer, const KnownImage &image)
 	{
-		const auto rays = surfaceRays(layer, draw_.eye, eyes_);
+		const Surface surface = surfaces_[index];
+		const auto rays = surfaceRays(layer, surface, draw_.eye, eyes_);
 		if (!rays) return;
 		Occupancy *occupancy = isShownWhereEmpty(layer) ? nullptr : image.occupancy;
-		covers_[index] = surfaceCoverage(draw_.grid, layer, draw_.eye, *rays, contentOf(textureOf(layer, draw_.eye), occupancy, false));
+		const ContentOf content = contentOf(textureOf(layer, draw_.eye), occupancy, false);
+		covers_[index] = surfaceCoverage(draw_.grid, layer, surface, draw_.eye, *rays, content);
 		blocks_[index] = uint32_t(drawing_.surfaceBlocks.size());
 		for (uint32_t band = 0; band < bandCount; ++band)
-			drawing_.surfaceBlocks.push_back(surfaceBlock(layer, draw_.eye, band, *rays, *image.spec));
+			drawing_.surfaceBlocks.push_back(surfaceBlock(layer, surface, draw_.eye, band, *rays, *image.spec));
 	}
 
 	/// The layers below the first passthrough layer, that one over them, those above it over both, and so on.
@@ -195,6 +216,11 @@ private:
 			item.arrayIndex = texture.arrayIndex;
 			item.pipeline.surface = surfaces_[size_t(tiles.layer)];
 			item.pipeline.layerEncoded = encoded_[size_t(tiles.layer)];
+			if (item.pipeline.surface == Surface::deep) {
+				const LayerTexture &depth = draw_.inputs.layers[size_t(tiles.layer)].projection[draw_.eye]->depth->texture;
+				item.depthImage = depth.image;
+				item.depthArrayIndex = depth.arrayIndex;
+			}
 			// Only plain layers are keyed out.
 			item.pipeline.keyed = item.pipeline.surface == Surface::none && draw_.inputs.layers[size_t(tiles.layer)].key;
 		}
@@ -204,7 +230,8 @@ private:
 	Drawing &drawing_;
 	const EyeDraw &draw_;
 	const FindImage &findImage_;
-	std::array<std::array<EyeAtLine, 2>, bandCount + 1> eyes_;
+	const IsReady &isReady_;
+	EyesByBand eyes_;
 	FrameVector<FrameVector<Cover>> covers_; ///< by layer
 	FrameVector<uint32_t> blocks_;           ///< by layer: its first block
 	FrameVector<bool> encoded_;              ///< by layer: its texels are sRGB encoded, where it is plain
@@ -216,12 +243,12 @@ private:
 } // namespace
 
 Drawing makeDrawing(const PanelInputs &inputs, const PanelOptics &optics, const ViewGeometry &geometry,
-					const std::array<TileGrid, 2> &grids, const FindImage &findImage)
+					const std::array<TileGrid, 2> &grids, const FindImage &findImage, const IsReady &isReady)
 {
 	Drawing drawing;
 	for (size_t eye = 0; eye < 2; ++eye) {
 		const EyeDraw draw{inputs, optics, geometry, grids[eye], eye};
-		EyeDrawing(drawing, draw, findImage).make();
+		EyeDrawing(drawing, draw, findImage, isReady).make();
 	}
 	return drawing;
 }

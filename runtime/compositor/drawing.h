@@ -16,6 +16,8 @@ struct DrawItem {
 							 ///< surface into Drawing::surfaceBlocks
 	uint64_t image = 0;      ///< the layer's, or a passthrough layer's map; 0: none
 	uint32_t arrayIndex = 0;
+	uint64_t depthImage = 0; ///< of a deep surface
+	uint32_t depthArrayIndex = 0;
 	uint32_t firstVertex = 0, vertexCount = 0;
 };
 
@@ -33,9 +35,12 @@ struct KnownImage {
 	Occupancy *occupancy = nullptr; ///< of the array layer asked for; null where nobody can look
 };
 using FindImage = std::function<std::optional<KnownImage>(const LayerTexture &)>;
+/// Whether something can be drawn with a pipeline; its making begins where it cannot.
+using IsReady = std::function<bool(const PipelineKey &)>;
 /// Layers whose image or rectangle is not there are left out, and tiles where a layer has no content.
+/// Layers with depth are drawn as if they had none as long as what draws them with it is not ready.
 Drawing makeDrawing(const PanelInputs &inputs, const PanelOptics &optics, const ViewGeometry &geometry,
-					const std::array<TileGrid, 2> &grids, const FindImage &findImage);
+					const std::array<TileGrid, 2> &grids, const FindImage &findImage, const IsReady &isReady);
 /// Draws a few pixels with every pipeline, those of layers with every image, so that nothing is left for a driver to do at a pipeline's
 /// first draw.
 /// `cubes`: images for pipelines of cubes.

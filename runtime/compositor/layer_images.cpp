@@ -10,6 +10,13 @@ using Access = vk::AccessFlagBits;
 using Layout = vk::ImageLayout;
 using Stage = vk::PipelineStageFlagBits;
 
+vk::ImageSubresourceRange wholeOf(const gpu::ImageSpec &spec)
+{
+	vk::ImageSubresourceRange whole = gpu::wholeColour;
+	whole.aspectMask = vk::ImageAspectFlags(gpu::aspectOf(VkFormat(spec.format)));
+	return whole;
+}
+
 vk::raii::DescriptorPool poolFor(const gpu::Device::Handles &gpu, uint32_t sets)
 {
 	const vk::DescriptorPoolSize size{vk::DescriptorType::eCombinedImageSampler, sets};
@@ -24,7 +31,8 @@ vk::raii::ImageView viewOf(const gpu::Device::Handles &gpu, VkImage image, const
 		return {gpu.device,
 				{{}, image, vk::ImageViewType::eCube, vk::Format(spec.format), {}, {vk::ImageAspectFlagBits::eColor, 0, 1, 6 * layer, 6}}};
 	const auto format = vk::Format(gpu::storedFormat(VkFormat(spec.format)));
-	return {gpu.device, {{}, image, vk::ImageViewType::e2D, format, {}, {vk::ImageAspectFlagBits::eColor, 0, 1, layer, 1}}};
+	const auto aspect = vk::ImageAspectFlags(gpu::copiedAspectOf(VkFormat(spec.format))); // not the stencil
+	return {gpu.device, {{}, image, vk::ImageViewType::e2D, format, {}, {aspect, 0, 1, layer, 1}}};
 }
 
 bool hasAlphaLast(VkFormat format)
@@ -50,14 +58,14 @@ std::vector<Occupancy> occupancyOf(const gpu::ImageSpec &spec, const gpu::ImageR
 
 } // namespace
 
-LayerImages::LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layout, vk::Sampler sampler)
-	: gpu_(gpu), layout_(layout), sampler_(sampler)
+LayerImages::LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layout, vk::Sampler sampler, vk::Sampler depthSampler)
+	: gpu_(gpu), layout_(layout), sampler_(sampler), depthSampler_(depthSampler)
 {
 }
 
 void LayerImages::add(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows)
 {
-	if (gpu::isDepth(VkFormat(spec.format)) || spec.samples != 1) return;
+	if (spec.samples != 1) return;
 	const uint32_t count = gpu::arraySize(spec);
 	Entry entry{image, spec, {}, poolFor(gpu_, count), {}, occupancyOf(spec, rows)};
 	const std::vector layouts(count, layout_);
@@ -65,7 +73,8 @@ void LayerImages::add(uint64_t key, VkImage image, const gpu::ImageSpec &spec, c
 	entry.sets.assign(std::make_move_iterator(sets.begin()), std::make_move_iterator(sets.end()));
 	for (uint32_t layer = 0; layer < count; ++layer) {
 		const auto &view = entry.views.emplace_back(viewOf(gpu_, image, spec, layer));
-		const vk::DescriptorImageInfo texture{sampler_, *view, Layout::eShaderReadOnlyOptimal};
+		const vk::Sampler sampler = gpu::isDepth(VkFormat(spec.format)) ? depthSampler_ : sampler_;
+		const vk::DescriptorImageInfo texture{sampler, *view, Layout::eShaderReadOnlyOptimal};
 		gpu_.device.updateDescriptorSets(
 			vk::WriteDescriptorSet{*entry.sets[layer], 0, 0, vk::DescriptorType::eCombinedImageSampler, texture}, {});
 	}
@@ -101,7 +110,7 @@ void LayerImages::acquire(const vk::raii::CommandBuffer &commands, std::span<con
 							VK_QUEUE_FAMILY_EXTERNAL,
 							gpu_.queueFamily,
 							entry->image,
-							gpu::wholeColour});
+							wholeOf(entry->spec)});
 	if (!barriers.empty()) commands.pipelineBarrier(Stage::eTopOfPipe, Stage::eFragmentShader, {}, {}, {}, barriers);
 }
 
@@ -116,7 +125,7 @@ void LayerImages::release(const vk::raii::CommandBuffer &commands, std::span<con
 							gpu_.queueFamily,
 							VK_QUEUE_FAMILY_EXTERNAL,
 							entry->image,
-							gpu::wholeColour});
+							wholeOf(entry->spec)});
 	if (!barriers.empty()) commands.pipelineBarrier(Stage::eFragmentShader, Stage::eBottomOfPipe, {}, {}, {}, barriers);
 }
 

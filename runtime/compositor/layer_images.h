@@ -11,7 +11,7 @@ class LayerImages
 {
 public:
 	/// Every array layer of every image, or every cube, gets a descriptor set of `layout`.
-	LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layout, vk::Sampler sampler);
+	LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layout, vk::Sampler sampler, vk::Sampler depthSampler);
 
 	/// `rows`: where a CPU finds the texels, if anywhere; they are looked at by find() alone.
 	void add(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows);
@@ -26,7 +26,7 @@ public:
 		std::vector<Occupancy> occupancy;          ///< by array layer; empty where the image does not lie in rows
 		uint64_t content = 0;                      ///< LayerTexture::content of what the occupancies know
 	};
-	/// Null: unknown, or nothing that can be sampled (depth).
+	/// Null: unknown, or nothing that can be sampled.
 	const Entry *find(uint64_t key) const;
 	/// What a layer shows, with what is known of its content.
 	std::optional<KnownImage> find(const LayerTexture &texture);
@@ -38,7 +38,7 @@ public:
 private:
 	gpu::Device::Handles &gpu_;
 	vk::DescriptorSetLayout layout_;
-	vk::Sampler sampler_;
+	vk::Sampler sampler_, depthSampler_;
 	std::unordered_map<uint64_t, Entry> images_;
 };
 

@@ -36,19 +36,25 @@ struct LayerTexture {
 	uint64_t content = 0; ///< another number when the image may have been drawn anew; 0: it may have been, every time
 };
 
+/// How far away what a view shows is: 1 / distance ahead of it (metres) = inverseBias + inverseScale * value in the image.
+struct ViewDepth {
+	LayerTexture texture; ///< over its rectangle as the colours over theirs
+	float inverseBias = 0, inverseScale = 0;
+};
 /// One layer as one eye sees it.
 struct ProjectionView {
 	XrPosef viewInFrame; ///< the pose it was drawn for
 	XrFovf fov;
 	LayerTexture texture;
+	std::optional<ViewDepth> depth = std::nullopt;
 };
 struct QuadView {
 	XrPosef quadInFrame; ///< centre; x right, y up, faces +z
 	XrExtent2Df size;    ///< metres
 	LayerTexture texture;
 };
-/// What a layer's image lies on. Flat: a plane, that of a projection view or a quad.
-enum class Surface : uint32_t { none, flat, cylinder, sphere, cube };
+/// What a layer's image lies on. Flat: a plane, that of a projection view or a quad. Deep: where a projection view's depth says.
+enum class Surface : uint32_t { none, flat, cylinder, sphere, cube, deep };
 /// Seen from inside. Angles are those to the right and up from -z; of a cylinder, whose axis is y, heights in radii stand for angles up.
 struct CurvedView {
 	Surface surface = Surface::cylinder;

@@ -165,7 +165,7 @@ PanelRenderer::Implementation::Implementation(gpu::Device &device_, const Rig &r
 	  cameraImages(gpu, optics),
 	  angleTables{makeAngleTable(gpu, optics, 0), makeAngleTable(gpu, optics, 1)},
 	  noLayer(device, smallImage(1)),
-	  layerImages(gpu, pipelines.layerSetLayout(), *linear),
+	  layerImages(gpu, pipelines.layerSetLayout(), *linear, *nearest),
 	  pool(makePool(gpu)),
 	  eyeSets(makeSets(gpu, pool, pipelines)),
 	  commandPool(gpu.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, gpu.queueFamily}),
@@ -205,11 +205,12 @@ void PanelRenderer::Implementation::uploadCameras(const PanelInputs &inputs)
 FrameVector<const LayerImages::Entry *> PanelRenderer::Implementation::imagesOf(const Drawing &drawing) const
 {
 	FrameVector<const LayerImages::Entry *> entries;
-	for (const DrawItem &item : drawing.items) {
-		if (item.image == 0) continue;
-		const LayerImages::Entry *entry = layerImages.find(item.image);
-		if (std::find(entries.begin(), entries.end(), entry) == entries.end()) entries.push_back(entry);
-	}
+	for (const DrawItem &item : drawing.items)
+		for (const uint64_t image : {item.image, item.depthImage}) {
+			if (image == 0) continue;
+			const LayerImages::Entry *entry = layerImages.find(image);
+			if (std::find(entries.begin(), entries.end(), entry) == entries.end()) entries.push_back(entry);
+		}
 	return entries;
 }
 
@@ -242,6 +243,9 @@ void PanelRenderer::Implementation::drawItems(const Drawing &drawing)
 									  {*eyeSets[item.eyeBlock], *layer->sets[item.arrayIndex]}, {});
 		if (item.pipeline.surface != Surface::none) {
 			surfaceBlocks.bind(commands(), pipelines.layout(), 2, item.layerBlock);
+			if (item.depthImage != 0)
+				commands().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 3,
+											  *layerImages.find(item.depthImage)->sets[item.depthArrayIndex], {});
 		} else {
 			const bool hasBlock = item.pipeline.layer != Cover::none || item.pipeline.look != Look::backdrop;
 			const shaders::LayerBlock &block = hasBlock ? drawing.layerBlocks[item.layerBlock] : unused;
@@ -295,7 +299,8 @@ void PanelRenderer::Implementation::draw(Canvas &canvas, const PanelInputs &inpu
 {
 	const XrTime begin = realTime();
 	const auto findImage = [&](const LayerTexture &texture) { return layerImages.find(texture); };
-	const Drawing drawing = makeDrawing(inputs, optics, canvas.geometry, canvas.grids, findImage);
+	const auto isReady = [&](const PipelineKey &key) { return bool(pipelineOf(key)); };
+	const Drawing drawing = makeDrawing(inputs, optics, canvas.geometry, canvas.grids, findImage, isReady);
 	const XrTime planned = realTime();
 	record(canvas, inputs, drawing);
 	const XrTime recorded = realTime();

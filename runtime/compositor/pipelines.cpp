@@ -5,6 +5,8 @@
 #include "shaders/surface.frag.h"
 #include "shaders/surface.vert.h"
 #include "shaders/surface_cube.frag.h"
+#include "shaders/surface_deep.frag.h"
+#include "shaders/surface_deep.vert.h"
 #include <array>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -52,7 +54,7 @@ template <size_t count> vk::raii::DescriptorSetLayout makeSetLayout(const gpu::D
 	return {gpu.device, {{}, bindings}};
 }
 
-vk::raii::PipelineLayout makeLayout(const gpu::Device::Handles &gpu, const std::array<vk::DescriptorSetLayout, 3> &sets)
+vk::raii::PipelineLayout makeLayout(const gpu::Device::Handles &gpu, const std::array<vk::DescriptorSetLayout, 4> &sets)
 {
 	const vk::PushConstantRange layerBlock{vk::ShaderStageFlagBits::eVertex, 0, sizeof(shaders::LayerBlock)};
 	return {gpu.device, {{}, sets, layerBlock}};
@@ -172,7 +174,6 @@ public:
 
 	vk::raii::Pipeline make(const PipelineKey &key) const
 	{
-		const vk::ShaderModule vertexModule = key.surface == Surface::none ? *vertex_ : *surfaceVertex_;
 		const ViewGeometry geometry = key.throughLens ? panelGeometry(optics_) : eyesGeometry(optics_);
 		const VertexConstants size{2.0f / float(geometry.width), 2.0f / float(geometry.height), float(geometry.eyes[0].perPixel.x)};
 		const Constants constants = constantsFor(optics_, geometry, key);
@@ -181,7 +182,7 @@ public:
 		const vk::SpecializationInfo bySize{uint32_t(sizeEntries.size()), sizeEntries.data(), sizeof size, &size};
 		const vk::SpecializationInfo byOptics{uint32_t(entries.size()), entries.data(), sizeof constants, &constants};
 		const std::array stages{
-			vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eVertex, vertexModule, "main", &bySize},
+			vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eVertex, vertexOf(key.surface), "main", &bySize},
 			vk::PipelineShaderStageCreateInfo{{}, vk::ShaderStageFlagBits::eFragment, fragmentOf(key.surface), "main", &byOptics}};
 		const vk::VertexInputBindingDescription binding{0, 2 * sizeof(int16_t)};
 		const vk::VertexInputAttributeDescription attribute{0, 0, vk::Format::eR16G16Sint, 0};
@@ -205,9 +206,15 @@ private:
 	{
 		return {gpu_.device, vk::ShaderModuleCreateInfo{{}, sizeof code, code}};
 	}
+	vk::ShaderModule vertexOf(Surface surface) const
+	{
+		if (surface == Surface::none) return *vertex_;
+		return surface == Surface::deep ? *deepVertex_ : *surfaceVertex_;
+	}
 	vk::ShaderModule fragmentOf(Surface surface) const
 	{
 		if (surface == Surface::none) return *fragment_;
+		if (surface == Surface::deep) return *deepFragment_;
 		return surface == Surface::cube ? *cubeFragment_ : *surfaceFragment_;
 	}
 
@@ -218,6 +225,7 @@ private:
 	vk::raii::ShaderModule vertex_ = module(panelVertexShader), fragment_ = module(panelFragmentShader);
 	vk::raii::ShaderModule surfaceVertex_ = module(surfaceVertexShader), surfaceFragment_ = module(surfaceFragmentShader);
 	vk::raii::ShaderModule cubeFragment_ = module(cubeFragmentShader);
+	vk::raii::ShaderModule deepVertex_ = module(deepVertexShader), deepFragment_ = module(deepFragmentShader);
 	vk::raii::PipelineCache cache_{gpu_.device, vk::PipelineCacheCreateInfo{}};
 };
 
@@ -226,7 +234,7 @@ Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const P
 	  eyeSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBuffer, Type::eCombinedImageSampler, Type::eCombinedImageSampler})),
 	  layerSetLayout_(makeSetLayout(gpu, std::array{Type::eCombinedImageSampler})),
 	  surfaceSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBufferDynamic})),
-	  layout_(makeLayout(gpu, {*eyeSetLayout_, *layerSetLayout_, *surfaceSetLayout_})),
+	  layout_(makeLayout(gpu, {*eyeSetLayout_, *layerSetLayout_, *surfaceSetLayout_, *layerSetLayout_})),
 	  factory_(std::make_unique<const Factory>(gpu, optics, *layout_, *renderPass_)),
 	  makesOthers_([this](const std::stop_token &stop) { makeOthers(stop); })
 {

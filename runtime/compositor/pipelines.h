@@ -37,6 +37,12 @@ struct PipelineKey {
 /// What is drawn day after day: both cameras with linear values, layers of sRGB encoded texels, through the lens.
 std::vector<PipelineKey> usualKeys(const PanelOptics &optics);
 
+/// What draws deep surfaces.
+constexpr PipelineKey deepKey(bool throughLens)
+{
+	return {.blend = Blend::over, .layer = Cover::partly, .throughLens = throughLens, .surface = Surface::deep};
+}
+
 class Pipelines
 {
 public:
@@ -46,8 +52,8 @@ public:
 	Pipelines(const Pipelines &) = delete;
 	vk::RenderPass renderPass() const { return *renderPass_; }
 	vk::PipelineLayout layout() const { return *layout_; }
-	/// Set 0: eye block, camera image, angle table. Set 1: layer image. Set 2: surface block, at a dynamic offset. Push constants: layer
-	/// block. surface.frag uses no push constants, panel.frag no set 2.
+	/// Set 0: eye block, camera image, angle table. Set 1: layer image. Set 2: surface block, at a dynamic offset. Set 3: depth
+	/// image, of a deep surface alone. Push constants: layer block. surface.frag uses no push constants, panel.frag no set 2.
 	vk::DescriptorSetLayout eyeSetLayout() const { return *eyeSetLayout_; }
 	vk::DescriptorSetLayout layerSetLayout() const { return *layerSetLayout_; }
 	vk::DescriptorSetLayout surfaceSetLayout() const { return *surfaceSetLayout_; }

@@ -33,6 +33,17 @@ glm::dmat3 toPlanePoint(const EyeAtLine &eye, const Placement &target)
 	return glm::mat3_cast(glm::conjugate(target.orientation)) * (rays + glm::outerProduct(offset, eye.ahead * rays));
 }
 
+/// A point in a view's frame to (u w, v w, w): u = (x / -z - left) / (right - left), v = (up - y / -z) / (up - down), times w = -z.
+glm::dmat3 toUv(const XrFovf &fov)
+{
+	const double left = std::tan(fov.angleLeft), right = std::tan(fov.angleRight);
+	const double up = std::tan(fov.angleUp), down = std::tan(fov.angleDown);
+	return glm::transpose(glm::dmat3{                                              //
+									 1 / (right - left), 0, left / (right - left), //
+									 0, -1 / (up - down), -up / (up - down),       //
+									 0, 0, -1});
+}
+
 } // namespace
 
 Placement toPlacement(const XrPosef &pose) { return {glm::normalize(toGlm(pose.orientation)), toGlm(pose.position)}; }
@@ -67,14 +78,14 @@ glm::dmat3 directionMatrix(const EyeAtLine &eye) { return glm::mat3_cast(eye.vie
 
 glm::dmat3 projectionMatrix(const EyeAtLine &eye, bool headLocked, const ProjectionView &view)
 {
-	const double left = std::tan(view.fov.angleLeft), right = std::tan(view.fov.angleRight);
-	const double up = std::tan(view.fov.angleUp), down = std::tan(view.fov.angleDown);
-	// u = (x / -z - left) / (right - left), v = (up - y / -z) / (up - down), times -z.
-	const glm::dmat3 toUv = glm::transpose(glm::dmat3{                                              //
-													  1 / (right - left), 0, left / (right - left), //
-													  0, -1 / (up - down), -up / (up - down),       //
-													  0, 0, -1});
-	return toUv * toPlanePoint(eye, layerInOrigin(eye, headLocked, view.viewInFrame));
+	return toUv(view.fov) * toPlanePoint(eye, layerInOrigin(eye, headLocked, view.viewInFrame));
+}
+
+DeepProjection deepProjection(const EyeAtLine &eye, bool headLocked, const ProjectionView &view)
+{
+	const Placement drawn = layerInOrigin(eye, headLocked, view.viewInFrame);
+	const glm::dmat3 toImage = toUv(view.fov) * glm::mat3_cast(glm::conjugate(drawn.orientation));
+	return {toImage * directionMatrix(eye), toImage * (eye.view.position - drawn.position)};
 }
 
 std::optional<glm::dmat3> quadMatrix(const EyeAtLine &eye, bool headLocked, const QuadView &quad)

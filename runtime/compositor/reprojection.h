@@ -36,6 +36,13 @@ glm::dmat3 directionMatrix(const EyeAtLine &eye);
 /// To (u w, v w, w) of what lies on the passthrough plane, u and v in 0..1 over the sub-image (v down), w > 0 in front of the view it was
 /// drawn for.
 glm::dmat3 projectionMatrix(const EyeAtLine &eye, bool headLocked, const ProjectionView &view);
+/// As projectionMatrix(), of what is seen where the view's depth says: (direction (x, y, 1) + offset / distance), with the distance along
+/// the ray, metres ahead of the eye.
+struct DeepProjection {
+	glm::dmat3 direction{1};
+	glm::dvec3 offset{0};
+};
+DeepProjection deepProjection(const EyeAtLine &eye, bool headLocked, const ProjectionView &view);
 /// The same for a quad, met where it stands; nothing for an eye behind it.
 std::optional<glm::dmat3> quadMatrix(const EyeAtLine &eye, bool headLocked, const QuadView &quad);
 

@@ -63,11 +63,11 @@ std::optional<glm::dvec2> met(Surface surface, const glm::dvec3 &ray, const glm:
 	return glm::dvec2(std::atan2(place.x, -place.z), up);
 }
 
-/// What a curved layer's coordinates do at the corners of a tile.
-class CurvedReach
+/// Rays and where they begin at the corners of tiles.
+class CornerRays
 {
 public:
-	CurvedReach(const TileGrid &grid, const CurvedView &view, const RaysByBand &rays) : grid_(grid), view_(view)
+	CornerRays(const TileGrid &grid, const RaysByBand &rays) : grid_(grid)
 	{
 		for (int row = 0; row <= grid.rows(); ++row) {
 			matrices_.push_back(matrixAtRow(grid, rays.matrix, row));
@@ -75,47 +75,154 @@ public:
 		}
 	}
 
-	Cover cover(int column, int row, const ContentOf &contentOf) const
+	/// Calls use(ray, origin) for every corner of a tile in its extreme colours, until it says false; says whether it never did.
+	template <typename Use> bool all(int column, int row, Use use) const
 	{
-		glm::dvec2 least(1e30), most(-1e30);
 		for (const int y : {row, row + 1})
 			for (const int x : {column, column + 1})
-				for (const double colour : extremeColours) {
-					const auto place =
-						met(view_.surface, matrices_[size_t(y)] * glm::dvec3(grid_.corner(x, y) * colour, 1), origins_[size_t(y)]);
-					if (!place) return Cover::partly;
-					least = glm::min(least, *place);
-					most = glm::max(most, *place);
-				}
-		// Over the back, where angles begin anew, or over a pole.
-		if (most.x - least.x > turn / 4) return Cover::partly;
-		const glm::dvec2 margin = (most - least) * bulge + 1e-6;
-		const glm::dvec2 one = uvOf(least - margin), other = uvOf(most + margin);
-		const glm::dvec2 low = glm::min(one, other), high = glm::max(one, other);
-		if (low.x > 1 || low.y > 1 || high.x < 0 || high.y < 0) return Cover::none;
-		return contentOf(low, high) == Content::none ? Cover::none : Cover::partly;
+				for (const double colour : extremeColours)
+					if (!use(matrices_[size_t(y)] * glm::dvec3(grid_.corner(x, y) * colour, 1), origins_[size_t(y)])) return false;
+		return true;
 	}
 
 private:
-	/// How much further than its corners the inside of a tile may reach.
-	static constexpr double bulge = 0.5;
-
 	static glm::dvec3 originAtRow(const TileGrid &grid, const RaysByBand &rays, int row)
 	{
 		MatrixByBand asColumns;
 		for (size_t band = 0; band <= bandCount; ++band) asColumns[band][0] = rays.origin[band];
 		return matrixAtRow(grid, asColumns, row)[0];
 	}
+
+	const TileGrid &grid_;
+	FrameVector<glm::dmat3> matrices_;
+	FrameVector<glm::dvec3> origins_;
+};
+
+/// Of a tile whose corners lie between these places of a layer's image, uv, in any order.
+Cover coverBetween(const glm::dvec2 &one, const glm::dvec2 &other, const ContentOf &contentOf)
+{
+	// How much further than its corners the inside of a tile may reach.
+	const glm::dvec2 margin = glm::abs(other - one) * 0.5 + 1e-6;
+	const glm::dvec2 low = glm::min(one, other) - margin, high = glm::max(one, other) + margin;
+	if (low.x > 1 || low.y > 1 || high.x < 0 || high.y < 0) return Cover::none;
+	return contentOf(low, high) == Content::none ? Cover::none : Cover::partly;
+}
+
+/// What a curved layer's coordinates do at the corners of a tile.
+class CurvedReach
+{
+public:
+	CurvedReach(const TileGrid &grid, const CurvedView &view, const RaysByBand &rays) : rays_(grid, rays), view_(view) {}
+
+	Cover cover(int column, int row, const ContentOf &contentOf) const
+	{
+		glm::dvec2 least(1e30), most(-1e30);
+		const bool isMet = rays_.all(column, row, [&](const glm::dvec3 &ray, const glm::dvec3 &origin) {
+			const auto place = met(view_.surface, ray, origin);
+			least = glm::min(least, place.value_or(least));
+			most = glm::max(most, place.value_or(most));
+			return place.has_value();
+		});
+		if (!isMet) return Cover::partly;
+		// Over the back, where angles begin anew, or over a pole.
+		if (most.x - least.x > turn / 4) return Cover::partly;
+		return coverBetween(uvOf(least), uvOf(most), contentOf);
+	}
+
+private:
 	glm::dvec2 uvOf(const glm::dvec2 &place) const
 	{
 		return {view_.uvAhead.x + view_.uvPerUnit.x * place.x, view_.uvAhead.y + view_.uvPerUnit.y * place.y};
 	}
 
-	const TileGrid &grid_;
+	const CornerRays rays_;
 	const CurvedView &view_;
-	FrameVector<glm::dmat3> matrices_;
-	FrameVector<glm::dvec3> origins_;
 };
+
+/// What counts as nearer than this, metres, is moved as if it were there: where a view is wrong about its depth, it is not torn to pieces.
+constexpr double nearestMoved = 0.2;
+/// An eye that has moved less than this, metres, sees what is nearest by less than a third of a panel's pixel elsewhere: not worth a
+/// search.
+constexpr double leastMove = 2e-4;
+/// Between two steps of surface.frag's search a view's texels move by about this much, unless that takes more than so many steps: then it
+/// may miss what is thinner than a step.
+constexpr double texelsPerStep = 2;
+constexpr double mostSteps = 16;
+
+/// 1 / distance of the nearest that a view's depth can say.
+double largestInverse(const ViewDepth &depth)
+{
+	const double atZero = double(depth.inverseBias), atOne = atZero + double(depth.inverseScale);
+	return std::clamp(std::max(atZero, atOne), 0.0, 1 / nearestMoved);
+}
+
+/// What a deep layer's coordinates do at the corners of a tile, from what is infinitely far away to what is nearest.
+class DeepReach
+{
+public:
+	DeepReach(const TileGrid &grid, const RaysByBand &rays, double inverse) : rays_(grid, rays), inverse_(inverse) {}
+
+	Cover cover(int column, int row, const ContentOf &contentOf) const
+	{
+		glm::dvec2 least(1e30), most(-1e30);
+		const bool isInFront = rays_.all(column, row, [&](const glm::dvec3 &ray, const glm::dvec3 &origin) {
+			for (const glm::dvec3 &place : {ray, ray + origin * (std::max(ray.z, 0.0) * inverse_)}) {
+				if (place.z <= 1e-6) return false;
+				const glm::dvec2 uv(place.x / place.z, place.y / place.z);
+				least = glm::min(least, uv);
+				most = glm::max(most, uv);
+			}
+			return true;
+		});
+		if (!isInFront) return Cover::partly;
+		return coverBetween(least, most, contentOf);
+	}
+
+private:
+	const CornerRays rays_;
+	const double inverse_;
+};
+
+/// How many steps surface.frag searches from what is nearest to what is infinitely far away.
+double searchSteps(const RaysByBand &rays, const XrExtent2Di &extent, double inverse)
+{
+	double texels = 0;
+	for (const glm::dvec3 &offset : rays.origin)
+		for (const double edge : {0, 1}) {
+			const glm::dvec2 moved = (glm::dvec2(offset) - edge * offset.z) * glm::dvec2(extent.width, extent.height) * inverse;
+			texels = std::max(texels, glm::length(moved));
+		}
+	return std::clamp(std::ceil(texels / texelsPerStep), 1.0, mostSteps);
+}
+
+void describeDepth(shaders::SurfaceBlock &block, const ProjectionView &view, const RaysByBand &rays)
+{
+	const auto vector = [](auto x, auto y) { return glm::vec2(float(x), float(y)); };
+	const auto &[corner, extent] = view.texture.rect;
+	const auto &[depthCorner, depthExtent] = view.depth->texture.rect;
+	const glm::vec2 scale = vector(depthExtent.width, depthExtent.height) / vector(extent.width, extent.height);
+	const glm::vec2 first = vector(depthCorner.x, depthCorner.y);
+	const double inverse = largestInverse(*view.depth);
+	block.depthTexel = {scale, first - (vector(corner.x, corner.y) - 0.5f) * scale};
+	block.depthBounds = {first, first + vector(depthExtent.width, depthExtent.height) - 1.0f};
+	block.depthSearch = {view.depth->inverseBias, view.depth->inverseScale, float(inverse), float(searchSteps(rays, extent, inverse))};
+}
+
+/// uv (x w, y w, w) to texels.
+glm::dmat3 texelsOf(const XrRect2Di &rect)
+{
+	const auto &[corner, extent] = rect;
+	return {extent.width, 0, 0, 0, extent.height, 0, corner.x - 0.5, corner.y - 0.5, 1};
+}
+
+template <typename Reach> FrameVector<Cover> coverageOf(const TileGrid &grid, const Reach &reach, const ContentOf &contentOf)
+{
+	FrameVector<Cover> cover;
+	cover.reserve(size_t(grid.rows()) * size_t(grid.columns()));
+	for (int row = 0; row < grid.rows(); ++row)
+		for (int column = 0; column < grid.columns(); ++column) cover.push_back(reach.cover(column, row, contentOf));
+	return cover;
+}
 
 /// Of a flat layer: panel.frag's own.
 FrameVector<Cover> flatCoverage(const TileGrid &grid, const RaysByBand &rays, const ContentOf &contentOf)
@@ -155,10 +262,20 @@ bool needsAlphaBelow(const PanelLayer &layer)
 	return keptColor != keptAlpha || !(usual || added);
 }
 
-std::optional<RaysByBand> surfaceRays(const PanelLayer &layer, size_t eye, const std::array<std::array<EyeAtLine, 2>, bandCount + 1> &eyes)
+bool seesDepth(const PanelLayer &layer, size_t eye, const EyesByBand &eyes)
+{
+	const auto &view = layer.projection[eye];
+	if (!view || !view->depth || layer.key) return false;
+	return std::ranges::any_of(eyes, [&](const auto &both) {
+		const Placement drawn = layerInOrigin(both[eye], layer.headLocked, view->viewInFrame);
+		return glm::distance(both[eye].view.position, drawn.position) > leastMove;
+	});
+}
+
+std::optional<RaysByBand> surfaceRays(const PanelLayer &layer, Surface surface, size_t eye, const EyesByBand &eyes)
 {
 	RaysByBand rays;
-	switch (surfaceOf(layer, eye)) {
+	switch (surface) {
 	case Surface::none: return std::nullopt;
 	case Surface::flat: {
 		const auto matrices = layerMatrices(layer, eye, eyes);
@@ -166,6 +283,13 @@ std::optional<RaysByBand> surfaceRays(const PanelLayer &layer, size_t eye, const
 		rays.matrix = *matrices;
 		return rays;
 	}
+	case Surface::deep:
+		for (size_t band = 0; band <= bandCount; ++band) {
+			const DeepProjection deep = deepProjection(eyes[band][eye], layer.headLocked, *layer.projection[eye]);
+			rays.matrix[band] = deep.direction;
+			rays.origin[band] = deep.offset;
+		}
+		return isFinite(rays.matrix) ? std::optional(rays) : std::nullopt;
 	case Surface::cube:
 		for (size_t band = 0; band <= bandCount; ++band)
 			addRays(rays, band, eyes[band][eye], layer.headLocked, {layer.cube[eye]->orientationInFrame, {0, 0, 0}}, 0);
@@ -179,29 +303,28 @@ std::optional<RaysByBand> surfaceRays(const PanelLayer &layer, size_t eye, const
 	return rays;
 }
 
-FrameVector<Cover> surfaceCoverage(const TileGrid &grid, const PanelLayer &layer, size_t eye, const RaysByBand &rays,
+FrameVector<Cover> surfaceCoverage(const TileGrid &grid, const PanelLayer &layer, Surface surface, size_t eye, const RaysByBand &rays,
 								   const ContentOf &contentOf)
 {
-	const Surface surface = surfaceOf(layer, eye);
 	if (surface == Surface::flat) return flatCoverage(grid, rays, contentOf);
-	FrameVector<Cover> cover(size_t(grid.rows()) * size_t(grid.columns()), Cover::partly);
-	if (surface == Surface::cube) return cover;
-	const CurvedReach reach(grid, *layer.curved[eye], rays);
-	for (int row = 0; row < grid.rows(); ++row)
-		for (int column = 0; column < grid.columns(); ++column)
-			cover[size_t(row) * size_t(grid.columns()) + size_t(column)] = reach.cover(column, row, contentOf);
-	return cover;
+	if (surface == Surface::cube) return FrameVector<Cover>(size_t(grid.rows()) * size_t(grid.columns()), Cover::partly);
+	if (surface == Surface::deep) return coverageOf(grid, DeepReach(grid, rays, largestInverse(*layer.projection[eye]->depth)), contentOf);
+	return coverageOf(grid, CurvedReach(grid, *layer.curved[eye], rays), contentOf);
 }
 
-shaders::SurfaceBlock surfaceBlock(const PanelLayer &layer, size_t eye, uint32_t band, const RaysByBand &rays, const gpu::ImageSpec &spec)
+shaders::SurfaceBlock surfaceBlock(const PanelLayer &layer, Surface surface, size_t eye, uint32_t band, const RaysByBand &rays,
+								   const gpu::ImageSpec &spec)
 {
-	const Surface surface = surfaceOf(layer, eye);
 	const shaders::LayerBlock flat = layerBlock(layer, eye, band, rays.matrix, spec.width, spec.height);
-	shaders::SurfaceBlock block{.ray = surface == Surface::flat ? flat.texel : byLine(rays.matrix, band), .bounds = flat.bounds};
+	const bool isFlat = surface == Surface::flat || surface == Surface::deep;
+	shaders::SurfaceBlock block{.ray = isFlat ? flat.texel : byLine(rays.matrix, band), .bounds = flat.bounds};
+	const glm::dmat3 inBlock = surface == Surface::deep ? texelsOf(layer.projection[eye]->texture.rect) : glm::dmat3(1);
+	const glm::dvec3 origin = inBlock * rays.origin[band], change = inBlock * rays.origin[band + 1] - origin;
 	for (int column = 0; column < 3; ++column) {
-		block.ray.first[column].w = float(rays.origin[band][column]);
-		block.ray.change[column].w = float(rays.origin[band + 1][column] - rays.origin[band][column]);
+		block.ray.first[column].w = float(origin[column]);
+		block.ray.change[column].w = float(change[column]);
 	}
+	if (surface == Surface::deep) describeDepth(block, *layer.projection[eye], rays);
 	if (layer.curved[eye]) {
 		const CurvedView &view = *layer.curved[eye];
 		const auto &[corner, extent] = view.texture.rect;

@@ -1,5 +1,5 @@
-// Layers that panel.frag does not draw: on cylinders, spheres and cubes, and those with a colour scale, a bias or blend factors of their
-// own. Pure functions in double precision; surface.frag is their other half.
+// Layers that panel.frag does not draw: on cylinders, spheres and cubes, as far away as their depth says, and those with a colour scale, a
+// bias or blend factors of their own. Pure functions in double precision; surface.frag is their other half.
 #pragma once
 #include "runtime/compositor/blocks.h"
 #include "runtime/gpu/image_spec.h"
@@ -8,14 +8,17 @@
 namespace arift
 {
 
-/// SurfaceBlock's ray and origin at the top of every band and at the bottom of the last; of a flat layer uv instead of texels.
+/// SurfaceBlock's ray and origin at the top of every band and at the bottom of the last; of flat and deep layers uv instead of texels.
 struct RaysByBand {
 	MatrixByBand matrix;
 	std::array<glm::dvec3, bandCount + 1> origin{};
 };
 
-/// What this eye sees the layer on; none where it does not see it.
+/// What this eye sees the layer on; none where it does not see it. Never deep.
 Surface surfaceOf(const PanelLayer &layer, size_t eye);
+/// Whether an eye is so far from where the layer's view was drawn that it sees near things elsewhere, and the view says how near they are.
+/// Layers with a key are never deep: they are rare, and plain.
+bool seesDepth(const PanelLayer &layer, size_t eye, const EyesByBand &eyes);
 /// Whether panel.frag can draw it.
 bool isPlain(const PanelLayer &layer);
 /// Whether it may be seen where its image is transparent black.
@@ -24,11 +27,12 @@ bool isShownWhereEmpty(const PanelLayer &layer);
 /// cameras' image straight away.
 bool needsAlphaBelow(const PanelLayer &layer);
 
-/// Nothing where this eye does not see the layer.
-std::optional<RaysByBand> surfaceRays(const PanelLayer &layer, size_t eye, const std::array<std::array<EyeAtLine, 2>, bandCount + 1> &eyes);
+/// What follows takes `surface`: surfaceOf(), or deep. Nothing where this eye does not see the layer.
+std::optional<RaysByBand> surfaceRays(const PanelLayer &layer, Surface surface, size_t eye, const EyesByBand &eyes);
 /// By tile, row by row: where such a layer may be seen and has content: `partly`, never `none` in error.
-FrameVector<Cover> surfaceCoverage(const TileGrid &grid, const PanelLayer &layer, size_t eye, const RaysByBand &rays,
+FrameVector<Cover> surfaceCoverage(const TileGrid &grid, const PanelLayer &layer, Surface surface, size_t eye, const RaysByBand &rays,
 								   const ContentOf &contentOf);
-shaders::SurfaceBlock surfaceBlock(const PanelLayer &layer, size_t eye, uint32_t band, const RaysByBand &rays, const gpu::ImageSpec &spec);
+shaders::SurfaceBlock surfaceBlock(const PanelLayer &layer, Surface surface, size_t eye, uint32_t band, const RaysByBand &rays,
+								   const gpu::ImageSpec &spec);
 
 } // namespace arift

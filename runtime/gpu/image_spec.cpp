@@ -69,11 +69,10 @@ VkImageCreateFlags createFlagsOf(VkFormat format)
 
 VkImageCreateInfo imageCreateInfo(const ImageSpec &spec, VkExternalMemoryImageCreateInfo &external)
 {
-	// What the service does with every image (clears new ones, samples those with colour), and what the boundary layout demands.
-	const bool depth = isDepth(VkFormat(spec.format));
-	const VkImageUsageFlags ours =
-		VK_IMAGE_USAGE_TRANSFER_DST_BIT |
-		(depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+	// What the service does with every image (clears new ones, samples all), and what the boundary layout demands.
+	const VkImageUsageFlags attachment =
+		isDepth(VkFormat(spec.format)) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+	const VkImageUsageFlags ours = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | attachment;
 	const auto format = VkFormat(spec.format);
 	external = {.sType = VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_IMAGE_CREATE_INFO, .pNext = nullptr, .handleTypes = sharedHandleType};
 	return {

@@ -177,6 +177,7 @@ void FrameSubmission::addDepth(ipc::LayerView &view, const void *next)
 	if (!info) return;
 	ipc::ViewDepth depth = depthOf(*info);
 	depth.image = subImage(info->subImage, ImageKind::depth);
+	if (session_.sharing().how == ipc::Sharing::copies && !session_.graphics()->copiesDepth()) return;
 	if (std::abs(depth.inverseBias) < farthest && std::abs(depth.inverseScale) < farthest) view.depth = depth;
 }
 

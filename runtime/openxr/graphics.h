@@ -68,6 +68,8 @@ public:
 	virtual std::array<uint8_t, 16> driverUuid() const = 0;
 	/// Whether the first row of an image is its lowest, and rectangles are measured from below: so it is with OpenGL.
 	virtual bool rowsGoUp() const { return false; }
+	/// Whether what depth images hold comes to the service where images are copied.
+	virtual bool copiesDepth() const { return true; }
 	/// Of the formats that the service says swapchains may have (VkFormats, its favourite first) those that the application's device can
 	/// draw in, as the numbers of the application's API.
 	virtual std::vector<int64_t> formatsOf(std::span<const int32_t> vulkan) const = 0;

@@ -20,6 +20,12 @@ XrFovf fovOf(const ipc::LayerView &view, bool rowsGoUp)
 }
 XrExtent2Df sizeOf(const ipc::Layer &layer, bool rowsGoUp) { return {layer.width, rowsGoUp ? -layer.height : layer.height}; }
 
+std::optional<ViewDepth> depthOf(const ipc::ViewDepth &depth)
+{
+	if (depth.image.swapchain == 0) return std::nullopt;
+	return ViewDepth{textureOf(depth.image), depth.inverseBias, depth.inverseScale};
+}
+
 CurvedView curvedOf(const ipc::Layer &layer, bool rowsGoUp)
 {
 	const auto &[radius, ahead, perUnit] = layer.curved;
@@ -41,7 +47,9 @@ void addView(PanelLayer &result, uint32_t eye, const ipc::Layer &layer, bool row
 	using enum ipc::LayerType;
 	const ipc::LayerView &view = layer.views[layer.type == projection ? eye : 0];
 	switch (layer.type) {
-	case projection: result.projection[eye] = ProjectionView{view.pose, fovOf(view, rowsGoUp), textureOf(view.image)}; return;
+	case projection:
+		result.projection[eye] = ProjectionView{view.pose, fovOf(view, rowsGoUp), textureOf(view.image), depthOf(view.depth)};
+		return;
 	case quad: result.quad[eye] = QuadView{view.pose, sizeOf(layer, rowsGoUp), textureOf(view.image)}; return;
 	case cylinder:
 	case equirect: result.curved[eye] = curvedOf(layer, rowsGoUp); return;

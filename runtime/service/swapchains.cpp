@@ -114,7 +114,10 @@ void Swapchains::fetch(const ipc::Submission &submission)
 		const ipc::Layer &layer = submission.layers[i];
 		if (layer.type == ipc::LayerType::passthrough) continue;
 		fetchOnce(layer.views[0].image);
-		if (layer.type == ipc::LayerType::projection) fetchOnce(layer.views[1].image);
+		if (layer.type != ipc::LayerType::projection) continue;
+		fetchOnce(layer.views[1].image);
+		for (const ipc::LayerView &view : layer.views)
+			if (view.depth.image.swapchain != 0) fetchOnce(view.depth.image);
 	}
 }
 

@@ -121,7 +121,8 @@ protected:
 	Drawing drawing()
 	{
 		occupancy.forget();
-		return makeDrawing(inputs, optics, geometry, grids, [this](const LayerTexture &) { return KnownImage{&spec, &occupancy}; });
+		const auto findImage = [this](const LayerTexture &) { return KnownImage{&spec, &occupancy}; };
+		return makeDrawing(inputs, optics, geometry, grids, findImage, [](const PipelineKey &) { return true; });
 	}
 	/// Pixels drawn by pipelines of which `which` is true.
 	template <typename Which> static int pixels(const Drawing &drawing, Which which)

@@ -143,7 +143,7 @@ protected:
 	}
 	static gpu::ImageSpec copiedSpec() { return {.format = VK_FORMAT_R8G8B8A8_UNORM, .width = width, .height = height, .arrayLayers = 2}; }
 
-	Application application{{nameOf(api()), "XR_MNDX_egl_enable"}};
+	Application application{{nameOf(api()), "XR_MNDX_egl_enable", "XR_KHR_composition_layer_depth"}};
 	GlApplication gl{api()};
 	XrSession session = XR_NULL_HANDLE;
 };
@@ -171,6 +171,36 @@ TEST_P(GlSession, WhatIsDrawnReachesTheServiceBottomRowFirst)
 		EXPECT_EQ(texel(image, 1, height - 1), redTexel);
 	}
 	EXPECT_EQ(get<PFN_xrDestroySwapchain>("xrDestroySwapchain")(swapchain), XR_SUCCESS);
+}
+
+TEST_P(GlSession, DepthIsSubmittedWhereItsImagesReachTheService)
+{
+	ASSERT_EQ(application.begin(session), XR_SUCCESS);
+	XrSwapchainCreateInfo info = swapchainInfo();
+	XrSwapchain colours = XR_NULL_HANDLE, depths = XR_NULL_HANDLE;
+	ASSERT_EQ(create(info, colours), XR_SUCCESS);
+	info.usageFlags = XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+	info.format = GL_DEPTH_COMPONENT16;
+	ASSERT_EQ(create(info, depths), XR_SUCCESS);
+	const XrTime time = beginFrame();
+	for (const XrSwapchain swapchain : {colours, depths}) {
+		acquire(swapchain);
+		release(swapchain);
+	}
+	const XrCompositionLayerDepthInfoKHR depth{
+		XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR, nullptr, {depths, {{0, 0}, {width, height}}, 0}, 0, 1, 0.1f, 10};
+	XrCompositionLayerProjectionView view{XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW,
+										  &depth,
+										  {{0, 0, 0, 1}, {0, 0, 0}},
+										  {-0.5f, 0.5f, 0.5f, -0.5f},
+										  {colours, {{0, 0}, {width, height}}, 0}};
+	const std::array views{view, view};
+	const XrCompositionLayerProjection layer{
+		XR_TYPE_COMPOSITION_LAYER_PROJECTION, nullptr, 0, application.space(session, XR_REFERENCE_SPACE_TYPE_LOCAL), 2, views.data()};
+	EXPECT_EQ(application.endFrame(session, time, {reinterpret_cast<const XrCompositionLayerBaseHeader *>(&layer)}), XR_SUCCESS);
+	const auto record = service.waitFor([](const auto &r) { return r.submissions.size() == 1; });
+	for (const ipc::LayerView &submitted : record.submissions.back().layers[0].views)
+		EXPECT_EQ(submitted.depth.image.swapchain != 0, !isCopied()) << "an image that stays cleared would say that all is far away";
 }
 
 TEST_P(GlSession, BindingsAndPendingErrorsComeBackAsTheyWere)

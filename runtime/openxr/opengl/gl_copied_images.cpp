@@ -122,7 +122,7 @@ void GlCopiedImages::requireReadable() const
 
 void GlCopiedImages::read(uint32_t image) const
 {
-	if (gpu::isDepth(VkFormat(spec_.format))) return; // OpenGL ES cannot read it, and it is not shown
+	if (gpu::isDepth(VkFormat(spec_.format))) return; // OpenGL ES cannot read it: GlGraphics::copiesDepth()
 	const PlainReading plain(gl_, framebuffer_, graphics_.isEs());
 	const gpu::CopyLayout layout = gpu::copyLayoutOf(spec_);
 	const GlTransfer transfer = transferOf(spec_.format);

@@ -19,6 +19,8 @@ public:
 	std::array<uint8_t, 16> deviceUuid() const override { return about_.deviceUuid; }
 	std::array<uint8_t, 16> driverUuid() const override { return about_.driverUuid; }
 	bool rowsGoUp() const override { return true; }
+	/// OpenGL ES cannot read it back.
+	bool copiesDepth() const override { return false; }
 	std::vector<int64_t> formatsOf(std::span<const int32_t> vulkan) const override;
 	bool sees(const MemoryProbe &probe) const override;
 	gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info, ipc::Sharing sharing) const override;

@@ -2,6 +2,7 @@
 #include "runtime/gpu/handles.h"
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 
 namespace arift::reference
@@ -80,6 +81,16 @@ CoordinateTexture::CoordinateTexture(gpu::Device &device, Content content, uint3
 			image_.image(),         all};
 		commands.pipelineBarrier(Stage::eTransfer, Stage::eBottomOfPipe, {}, {}, {}, give);
 	});
+}
+
+DepthTexture::DepthTexture(gpu::Device &device, uint32_t width, uint32_t height, const std::function<double(double, double)> &value)
+	: image_(device,
+			 {.format = VK_FORMAT_D32_SFLOAT, .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, .width = width, .height = height})
+{
+	std::vector<float> values;
+	for (uint32_t row = 0; row < height; ++row)
+		for (uint32_t column = 0; column < width; ++column) values.push_back(float(value(column + 0.5, row + 0.5)));
+	image_.write(0, std::as_bytes(std::span(values)));
 }
 
 PanelReadings::PanelReadings(std::array<ReadbackImage, 3> images, uint32_t width, uint32_t height)

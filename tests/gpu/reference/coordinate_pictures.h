@@ -5,6 +5,7 @@
 #include "runtime/gpu/device.h"
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,17 @@ class CoordinateTexture
 {
 public:
 	CoordinateTexture(gpu::Device &device, Content content, uint32_t width, uint32_t height, bool cube = false);
+	const gpu::SharedImage &shared() const { return image_; }
+
+private:
+	gpu::SharedImage image_;
+};
+
+/// An application's depth image (D32) in that state, filled by `value` of a texel's middle (column, row).
+class DepthTexture
+{
+public:
+	DepthTexture(gpu::Device &device, uint32_t width, uint32_t height, const std::function<double(double, double)> &value);
 	const gpu::SharedImage &shared() const { return image_; }
 
 private:

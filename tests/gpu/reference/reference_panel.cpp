@@ -20,6 +20,44 @@ Window fieldOfView(int eye, double eyeRelief)
 	return eye == 0 ? Window{-out, in, high, -high} : Window{-in, out, high, -high};
 }
 
+namespace
+{
+
+/// Where a point in a picture's frame lies in it.
+std::optional<Eigen::Vector2d> projected(const ProjectionPicture &picture, const Eigen::Vector3d &point)
+{
+	const Eigen::Vector3d q = picture.viewInFrame.in(point);
+	if (q.z() >= 0) return std::nullopt;
+	const Eigen::Vector2d t(q.x() / -q.z(), q.y() / -q.z());
+	if (!picture.window.holds(t)) return std::nullopt;
+	const Window &w = picture.window;
+	return Eigen::Vector2d((t.x() - w.left) / (w.right - w.left) * picture.width - 0.5,
+						   (w.up - t.y()) / (w.up - w.down) * picture.height - 0.5);
+}
+
+} // namespace
+
+std::optional<Met> firstMet(std::span<const Facet> facets, const Eigen::Vector3d &from, const Eigen::Vector3d &direction)
+{
+	std::optional<Met> first;
+	for (size_t i = 0; i < facets.size(); ++i) {
+		const Eigen::Vector3d start = facets[i].inFrame.in(from), ray = facets[i].inFrame.turn.conjugate() * direction;
+		const double along = -start.z() / ray.z();
+		if (!(along > 0) || (first && first->along <= along)) continue;
+		const Eigen::Vector3d hit = start + along * ray;
+		if (std::abs(hit.x()) <= facets[i].halfWide && std::abs(hit.y()) <= facets[i].halfHigh) first = Met{i, along};
+	}
+	return first;
+}
+
+double inverseDistance(const ProjectionPicture &picture, std::span<const Facet> facets, double column, double row)
+{
+	const Window &w = picture.window;
+	const Eigen::Vector3d ray(w.left + column / picture.width * (w.right - w.left), w.up - row / picture.height * (w.up - w.down), -1);
+	const auto met = firstMet(facets, picture.viewInFrame.place, picture.viewInFrame.turn * ray);
+	return met ? 1 / met->along : 0;
+}
+
 Placement Situation::view(int eye, double time) const
 {
 	const Placement atEye = motion.head(time).holding(eyeInHead[size_t(eye)]);
@@ -50,13 +88,20 @@ std::optional<Eigen::Vector2d> PanelReference::projectionTexel(const Situation &
 	const double time = Situation::timeAt(pixel.y());
 	const auto point = now.passthroughPoint(eye, time, lens_.tangents(eye, channel, pixel));
 	if (!point) return std::nullopt;
-	const Eigen::Vector3d q = picture.viewInFrame.in(headLocked ? now.motion.head(time).in(*point) : *point);
-	if (q.z() >= 0) return std::nullopt;
-	const Eigen::Vector2d t(q.x() / -q.z(), q.y() / -q.z());
-	if (!picture.window.holds(t)) return std::nullopt;
-	const Window &w = picture.window;
-	return Eigen::Vector2d((t.x() - w.left) / (w.right - w.left) * picture.width - 0.5,
-						   (w.up - t.y()) / (w.up - w.down) * picture.height - 0.5);
+	return projected(picture, headLocked ? now.motion.head(time).in(*point) : *point);
+}
+
+std::optional<SceneTexel> PanelReference::sceneTexel(const Situation &now, const ProjectionPicture &picture, std::span<const Facet> facets,
+													 bool headLocked, int eye, int channel, const Eigen::Vector2d &pixel) const
+{
+	const Ray ray = rayOf(now, headLocked, eye, channel, pixel);
+	const auto met = firstMet(facets, ray.from, ray.direction);
+	if (!met) return std::nullopt;
+	const Eigen::Vector3d point = ray.from + met->along * ray.direction;
+	const auto texel = projected(picture, point);
+	if (!texel) return std::nullopt;
+	const auto drawn = firstMet(facets, picture.viewInFrame.place, point - picture.viewInFrame.place);
+	return SceneTexel{met->facet, *texel, drawn && drawn->facet == met->facet};
 }
 
 std::optional<Eigen::Vector2d> PanelReference::quadTexel(const Situation &now, const QuadPicture &picture, bool headLocked, int eye,

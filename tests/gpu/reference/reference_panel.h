@@ -5,6 +5,7 @@
 #include "tests/gpu/reference/reference_motion.h"
 #include <array>
 #include <optional>
+#include <span>
 
 namespace arift::reference
 {
@@ -46,6 +47,18 @@ struct QuadPicture {
 	int width, height;
 };
 
+/// A flat thing in the room that a projection picture shows: x right, y up, seen from both sides.
+struct Facet {
+	Placement inFrame;
+	double halfWide, halfHigh; ///< metres; may be infinite
+};
+/// What of a scene a panel pixel shows, and where a picture that was drawn of it from elsewhere has that.
+struct SceneTexel {
+	size_t facet;
+	Eigen::Vector2d texel;
+	bool drawn; ///< else the picture has another facet there, which was in front of it
+};
+
 /// Seen from inside; the centre of a cylinder's picture and the middle of a sphere's equator lie ahead of their centre, on its -z.
 struct CurvedPicture {
 	Placement centreInFrame;
@@ -66,6 +79,15 @@ struct CubeTexel {
 	Eigen::Vector2d texel;
 };
 
+/// The first facet that a ray meets, and where along it; nothing where it meets none.
+struct Met {
+	size_t facet;
+	double along; ///< in lengths of the direction
+};
+std::optional<Met> firstMet(std::span<const Facet> facets, const Eigen::Vector3d &from, const Eigen::Vector3d &direction);
+/// 1 / distance ahead of the view, per metre, of what a picture shows at a place between 0 and its width and height; 0: nothing.
+double inverseDistance(const ProjectionPicture &picture, std::span<const Facet> facets, double column, double row);
+
 /// All answers are (column, row) with integers at texel centres; nothing where the picture is not met.
 class PanelReference
 {
@@ -80,6 +102,9 @@ public:
 											 const Eigen::Vector2d &pixel) const;
 	std::optional<Eigen::Vector2d> curvedTexel(const Situation &now, const CurvedPicture &picture, bool headLocked, int eye, int channel,
 											   const Eigen::Vector2d &pixel) const;
+	/// Nothing where no facet is met, or where the picture does not reach.
+	std::optional<SceneTexel> sceneTexel(const Situation &now, const ProjectionPicture &picture, std::span<const Facet> facets,
+										 bool headLocked, int eye, int channel, const Eigen::Vector2d &pixel) const;
 	CubeTexel cubeTexel(const Situation &now, const CubePicture &picture, bool headLocked, int eye, int channel,
 						const Eigen::Vector2d &pixel) const;
 

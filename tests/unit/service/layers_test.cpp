@@ -1,5 +1,6 @@
 // What an application submits as the compositor draws it.
 #include "runtime/service/layers.h"
+#include "runtime/service/swapchains.h"
 #include <gtest/gtest.h>
 
 namespace arift
@@ -35,6 +36,22 @@ TEST(Layers, AViewWhoseRowsGoUpIsTurnedOver)
 		EXPECT_EQ(turned.angleLeft, usual.angleLeft);
 		EXPECT_EQ(turned.angleRight, usual.angleRight);
 	}
+}
+
+TEST(Layers, AViewsDepthIsSaidOfItWhereItHasAny)
+{
+	ipc::Submission submission = submissionOf(ipc::LayerType::projection, 0);
+	submission.layers[0].views[1].depth = {{.swapchain = 7, .image = 2, .arrayIndex = 3, .x = 4, .y = 5, .width = 6, .height = 8}, 10, -9};
+	const PanelLayer layer = layersOf(submission)[0];
+	EXPECT_FALSE(layer.projection[0]->depth);
+	ASSERT_TRUE(layer.projection[1]->depth);
+	const ViewDepth &depth = *layer.projection[1]->depth;
+	EXPECT_EQ(depth.texture.image, imageKey(7, 2));
+	EXPECT_EQ(depth.texture.arrayIndex, 3u);
+	EXPECT_EQ(depth.texture.rect.offset.y, 5);
+	EXPECT_EQ(depth.texture.rect.extent.width, 6);
+	EXPECT_EQ(depth.inverseBias, 10);
+	EXPECT_EQ(depth.inverseScale, -9);
 }
 
 TEST(Layers, AQuadWhoseRowsGoUpIsTurnedOver)
