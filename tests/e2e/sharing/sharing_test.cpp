@@ -1,7 +1,9 @@
-// Images that are copied instead of shared: the same picture, and nothing that the other side could do with the memory hurts the service.
+// Images that are copied instead of shared: the same picture, with depth too, and nothing that the other side could do with the memory
+// hurts the service.
 #include "runtime/ipc/shared_memory.h"
 #include "tests/e2e/boundary/raw_client.h"
 #include "tests/e2e/common/process_usage.h"
+#include <cmath>
 #include <csignal>
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -39,19 +41,18 @@ struct Shown {
 	nlohmann::json swapchains;
 	std::string serviceLog, applicationLog;
 };
-Shown show(const char *images)
+Shown show(const char *images, const char *program = "format_application", ipc::PictureKind kind = ipc::PictureKind::panel)
 {
 	PrivateService service(quietWorld(images));
 	auto environment = service.tree().environment();
 	environment["VK_INSTANCE_LAYERS"] = "VK_LAYER_KHRONOS_validation";
 	environment["VK_LAYER_ENABLES"] = "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT";
-	ChildProcess application({(programDirectory() / "format_application").string()}, environment,
-							 service.tree().root() / "application.log");
+	ChildProcess application({(programDirectory() / program).string()}, environment, service.tree().root() / "application.log");
 	const bool isShown = eventually(service, [](const auto &status) {
 		return status["service"]["uptime"] > 3 && !status["clients"].empty() && status["clients"][0]["shown"] > 25;
 	});
 	EXPECT_TRUE(isShown) << application.output() << service.process().output();
-	Shown shown{service.screenshot(), service.status()["clients"].at(0)["swapchains"], {}, {}};
+	Shown shown{service.screenshot(kind), service.status()["clients"].at(0)["swapchains"], {}, {}};
 	EXPECT_EQ(application.stop(std::chrono::seconds(20)), 0) << application.output();
 	EXPECT_EQ(service.status()["headset"]["validationMessages"], 0) << service.process().output();
 	shown.serviceLog = service.process().output();
@@ -101,6 +102,43 @@ TEST_F(Validated, CopiesShowWhatSharedImagesShow)
 	for (const Shown *each : {&shared, &copied})
 		for (const char *message : {"Validation Error", "Validation Warning", "VUID", "SYNC-HAZARD"})
 			EXPECT_EQ(occurrences(each->applicationLog, message), 0u) << each->applicationLog;
+}
+
+/// What is of one colour in an eye's half of a picture, a channel at full and the others at nothing.
+struct Square {
+	double middle = 0, width = 0; ///< pixels
+};
+Square squareOf(const PanelPicture &picture, size_t eye, size_t channel)
+{
+	double sum = 0, count = 0;
+	uint32_t least = picture.width, most = 0;
+	for (uint32_t y = 0; y < picture.height; ++y)
+		for (auto x = uint32_t(eye * picture.width / 2); x < (eye + 1) * picture.width / 2; ++x) {
+			const uint8_t *p = &picture.rgba[4 * (size_t(y) * picture.width + x)];
+			if (p[channel] < 250 || p[(channel + 1) % 3] > 5 || p[(channel + 2) % 3] > 5) continue;
+			sum += x, ++count;
+			least = std::min(least, x), most = std::max(most, x);
+		}
+	return {sum / count, double(most) - least + 1};
+}
+
+/// Both squares were seen straight ahead from 5 cm further to the left: without a depth they are on the plane at 2 m.
+TEST_F(Validated, DepthMovesWhatIsNearWhetherItsImagesAreSharedOrCopied)
+{
+	for (const char *images : {"auto", "copy"}) {
+		const Shown shown = show(images, "depth_application", ipc::PictureKind::eyes);
+		for (const size_t eye : {0, 1}) {
+			const Square green = squareOf(shown.picture, eye, 1), red = squareOf(shown.picture, eye, 0);
+			const double perTangent = red.width / (2 * std::tan(0.05)), apart = (red.middle - green.middle) / perTangent;
+			const double expected = 0.05 / (eye == 0 ? 0.4 : 1.0) - 0.05 / 2;
+			fmt::print(stderr,
+					   "[ FIGURE   ] {}: what is {} m away is seen {:.4f} to the left of what is thought 2 m away, expected {:.4f}\n",
+					   images, eye == 0 ? 0.4 : 1.0, apart, expected);
+			EXPECT_NEAR(apart, expected, 0.004) << images;
+		}
+		for (const char *message : {"Validation Error", "Validation Warning", "VUID", "SYNC-HAZARD"})
+			EXPECT_EQ(occurrences(shown.applicationLog, message), 0u) << shown.applicationLog;
+	}
 }
 
 /// A client on a GPU that is not the service's, without one.
