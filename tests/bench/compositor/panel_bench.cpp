@@ -85,6 +85,25 @@ struct Scene {
 			layer.projection[e] = ProjectionView{rig.eyeInHead[e], angles, {1, e, {{0, 0}, {int32_t(viewWidth), int32_t(viewHeight)}}}};
 		}
 	}
+	/// Of an askew wall half a metre to a few metres away, drawn for eyes that were `moved` metres further to the left.
+	void addDeepProjection(float moved)
+	{
+		depths.emplace(device, gpu::ImageSpec{.format = VK_FORMAT_D32_SFLOAT,
+											  .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+											  .width = viewWidth,
+											  .height = viewHeight,
+											  .arrayLayers = 2});
+		std::vector<float> values(size_t(viewWidth) * viewHeight);
+		for (size_t i = 0; i < values.size(); ++i) values[i] = 0.02f + 0.18f * float(i % viewWidth) / float(viewWidth);
+		for (uint32_t e = 0; e < 2; ++e) depths->write(e, std::as_bytes(std::span(values)));
+		renderer.addImage(2, depths->image(), depths->spec());
+		addProjection(false);
+		for (uint32_t e = 0; e < 2; ++e) {
+			auto &view = inputs.layers.back().projection[e];
+			view->viewInFrame.position.x -= moved;
+			view->depth = ViewDepth{{2, e, view->texture.rect}, 0, 10};
+		}
+	}
 	void addQuad(float size, float x)
 	{
 		PanelLayer &layer = inputs.layers.emplace_back();
@@ -100,7 +119,7 @@ struct Scene {
 
 	gpu::Device device;
 	Rig rig;
-	std::optional<gpu::SharedImage> views;
+	std::optional<gpu::SharedImage> views, depths;
 	PanelRenderer renderer;
 	PanelInputs inputs;
 };
@@ -135,6 +154,11 @@ void cameraAndEmptyLayer(benchmark::State &state)
 void cameraAndFullLayer(benchmark::State &state)
 {
 	measure(state, [](Scene &scene) { scene.addProjection(false); });
+}
+/// The argument: tenths of a millimetre that the eyes have moved.
+void cameraAndDeepLayer(benchmark::State &state)
+{
+	measure(state, [&](Scene &scene) { scene.addDeepProjection(float(state.range(0)) * 1e-4f); });
 }
 void opaqueLayer(benchmark::State &state)
 {
@@ -184,6 +208,7 @@ ARIFT_FRAME_BENCHMARK(cameraOnly);
 ARIFT_FRAME_BENCHMARK(cameraAndSmallQuad);
 ARIFT_FRAME_BENCHMARK(cameraAndEmptyLayer);
 ARIFT_FRAME_BENCHMARK(cameraAndFullLayer);
+ARIFT_FRAME_BENCHMARK(cameraAndDeepLayer)->Arg(0)->Arg(5)->Arg(15)->Arg(50)->Arg(150)->Arg(400);
 ARIFT_FRAME_BENCHMARK(opaqueLayer);
 ARIFT_FRAME_BENCHMARK(cameraFullLayerAndFourQuads);
 ARIFT_FRAME_BENCHMARK(makeRenderer);
