@@ -94,7 +94,8 @@ void Compositor::Loop::wake(const Sources &sources, const Pacer::Refresh &refres
 void Compositor::Loop::record(const Frame &frame)
 {
 	const XrTime display = frame.result.display;
-	ShownFrame shown{.displayTime = display, .period = pacer_.period(), .composeCost = frame.cost, .stages = frame.stages};
+	ShownFrame shown{
+		.displayTime = display, .period = pacer_.period(), .composeCost = frame.cost, .stages = frame.stages, .leftOut = frame.leftOut};
 	for (size_t eye = 0; eye < 2; ++eye)
 		if (const auto &camera = frame.inputs.cameras[eye]) shown.cameraAge[eye] = display - camera->frame.midExposure;
 	if (frame.newest.time != 0) shown.poseAge = display - frame.newest.time;
@@ -191,6 +192,7 @@ bool Compositor::Loop::frame(const Pacer::Refresh &refresh, XrTime planned)
 	recording = fromSeconds(cost.record);
 	drawing = fromSeconds(cost.wait);
 	presenting = realTime() - rendered;
+	frame.leftOut = cost.leftOut;
 	frame.cost = rendered - realBegan;
 	record(frame);
 	trace(frame, realBegan);

@@ -60,6 +60,7 @@ private:
 		MotionSample newest;
 		StageTimes stages{};
 		XrDuration cost = 0; ///< real
+		uint32_t leftOut = 0;
 		Target::Result result;
 	};
 

@@ -36,6 +36,7 @@ void FrameRecord::add(const ShownFrame &frame)
 		totals_.longestGap = std::max(totals_.longestGap, gap);
 	}
 	totals_.last = frame.displayTime;
+	totals_.leftOut = frame.leftOut;
 	if (!frame.cameraAge[0] || !frame.cameraAge[1]) totals_.withoutCamera++;
 	if (frames_.size() < kept)
 		frames_.push_back(frame);
@@ -65,7 +66,8 @@ FrameFigures FrameRecord::figures() const
 						 .missed = totals_.missed,
 						 .gaps = totals_.gaps,
 						 .longestGap = double(totals_.longestGap) * 1e-6,
-						 .withoutCamera = totals_.withoutCamera};
+						 .withoutCamera = totals_.withoutCamera,
+						 .leftOut = totals_.leftOut};
 	if (totals_.last > totals_.first) figures.perSecond = double(totals_.shown - 1) / inSeconds(totals_.last - totals_.first);
 	figures.cameraAge = figureOf(std::move(cameraAges));
 	figures.poseAge = figureOf(std::move(poseAges));

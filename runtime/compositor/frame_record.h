@@ -31,6 +31,7 @@ struct ShownFrame {
 	std::optional<XrDuration> poseAge;                  ///< from the newest sample used until displayTime
 	XrDuration composeCost = 0;                         ///< real time from latching the inputs until the image was finished
 	StageTimes stages{};
+	uint32_t leftOut = 0; ///< PanelRenderer::Cost
 };
 
 struct Figure {
@@ -46,6 +47,7 @@ struct FrameFigures {
 	uint64_t gaps = 0;          ///< times that more than one and a half periods lay between two images
 	double longestGap = 0;      ///< milliseconds
 	uint64_t withoutCamera = 0; ///< images in which an eye saw no camera's image
+	uint32_t leftOut = 0;       ///< draws that the newest image lacks because their pipelines are not made yet
 	Figure cameraAge, poseAge, compose;
 	std::array<Figure, frameStageNames.size()> stages;
 	double cpuSeconds = 0; ///< of the whole process since the last reset; filled in by who asks
@@ -65,6 +67,7 @@ public:
 private:
 	struct Totals {
 		uint64_t shown = 0, missed = 0, gaps = 0, withoutCamera = 0;
+		uint32_t leftOut = 0;
 		XrTime first = 0, last = 0;
 		XrDuration longestGap = 0;
 	};

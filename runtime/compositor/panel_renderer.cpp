@@ -236,7 +236,10 @@ void PanelRenderer::Implementation::drawItems(const Drawing &drawing)
 	commands().bindVertexBuffers(0, *vertices->buffer, vk::DeviceSize(0));
 	for (const DrawItem &item : drawing.items) {
 		const vk::Pipeline pipeline = pipelineOf(item.pipeline);
-		if (!pipeline) continue;
+		if (!pipeline) {
+			++cost.leftOut;
+			continue;
+		}
 		const LayerImages::Entry *layer = item.image != 0 ? layerImages.find(item.image) : none;
 		commands().bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
 		commands().bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0,
@@ -302,6 +305,7 @@ void PanelRenderer::Implementation::draw(Canvas &canvas, const PanelInputs &inpu
 	const auto isReady = [&](const PipelineKey &key) { return bool(pipelineOf(key)); };
 	const Drawing drawing = makeDrawing(inputs, optics, canvas.geometry, canvas.grids, findImage, isReady);
 	const XrTime planned = realTime();
+	cost.leftOut = 0;
 	record(canvas, inputs, drawing);
 	const XrTime recorded = realTime();
 	gpu.submitAndWait(commands(), fence);

@@ -50,6 +50,7 @@ public:
 	/// Real time that the last render took, seconds: what is drawn where, camera images copied, commands recorded, the GPU waited for.
 	struct Cost {
 		double plan = 0, upload = 0, record = 0, wait = 0;
+		uint32_t leftOut = 0; ///< rectangles' draws that wait for their pipelines
 	};
 	Cost cost() const;
 

@@ -1,5 +1,6 @@
 #include "runtime/service/input_thread.h"
 #include "runtime/base/log.h"
+#include <algorithm>
 
 namespace arift
 {
@@ -8,6 +9,8 @@ namespace
 
 /// How long to read at most (real time) before looking round.
 constexpr XrDuration readLimit = second;
+/// What motors are told at a time: the kernel knows no longer times.
+constexpr XrDuration longestRumble = 30 * second;
 
 } // namespace
 
@@ -61,7 +64,8 @@ void InputThread::drive()
 	const bool isOver = told_.rumble.duration > 0 && now >= told_.until;
 	if (wanted_.lock()->changes == told_.changes && !isOver) return;
 	const Wanted news = wanted();
-	const Rumble rumble = news.vibration.at(now);
+	Rumble rumble = news.vibration.at(now);
+	rumble.duration = std::min(rumble.duration, longestRumble);
 	const bool isAtRest = rumble.duration == 0 && told_.rumble.duration == 0;
 	told_ = {news.changes, rumble, now + rumble.duration};
 	if (const auto gamepad = map_.gamepad(); gamepad && !isAtRest) devices_->rumble(*gamepad, rumble);

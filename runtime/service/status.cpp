@@ -32,6 +32,7 @@ nlohmann::json describeService(const Config &config, const FrameFigures &figures
 						{"gaps", figures.gaps},
 						{"longestGapMs", rounded(figures.longestGap)},
 						{"withoutCamera", figures.withoutCamera},
+						{"leftOut", figures.leftOut},
 						{"cameraAgeMs", describe(figures.cameraAge)},
 						{"poseAgeMs", describe(figures.poseAge)},
 						{"composeMs", describe(figures.compose)},

@@ -13,7 +13,7 @@ public:
 	/// As short as can be felt: a motor needs that long to turn.
 	static constexpr XrDuration shortest = 30 * millisecond;
 	/// However long a session wants: one that hangs is not felt for longer. Who wants more asks again.
-	static constexpr XrDuration longest = 10 * second;
+	static constexpr XrDuration longest = 60 * second;
 
 	void ask(uint32_t session, const ipc::Vibrate &message, XrTime now);
 	/// Motors that a session had which may not have them any more stop, and do not begin again.

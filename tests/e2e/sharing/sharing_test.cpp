@@ -49,7 +49,8 @@ Shown show(const char *images, const char *program = "format_application", ipc::
 	environment["VK_LAYER_ENABLES"] = "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT";
 	ChildProcess application({(programDirectory() / program).string()}, environment, service.tree().root() / "application.log");
 	const bool isShown = eventually(service, [](const auto &status) {
-		return status["service"]["uptime"] > 3 && !status["clients"].empty() && status["clients"][0]["shown"] > 25;
+		return status["service"]["uptime"] > 3 && !status["clients"].empty() && status["clients"][0]["shown"] > 25 &&
+			   status["frames"]["leftOut"] == 0;
 	});
 	EXPECT_TRUE(isShown) << application.output() << service.process().output();
 	Shown shown{service.screenshot(kind), service.status()["clients"].at(0)["swapchains"], {}, {}};
