@@ -47,7 +47,7 @@ template <typename T> struct FrameMemoryAllocator {
 	T *allocate(size_t count)
 	{
 		static_assert(alignof(T) <= alignof(std::max_align_t));
-		return static_cast<T *>(FrameMemory::allocate(count * sizeof(T)));
+		return static_cast<T *>(FrameMemory::allocate(count * sizeof(T))); // NOLINT(bugprone-sizeof-expression): T may be a pointer
 	}
 	void deallocate(T *memory, size_t) noexcept { FrameMemory::release(memory); }
 	friend bool operator==(const FrameMemoryAllocator &, const FrameMemoryAllocator &) { return true; }

@@ -12,7 +12,7 @@ namespace arift::ipc
 {
 
 constexpr uint32_t magic = 0x54465241; // "ARFT"
-constexpr uint32_t protocol = 6;       // raised with every change of this file, of pages.h or of PoseRing
+constexpr uint32_t protocol = 7;       // raised with every change of this file, of pages.h or of PoseRing
 /// Real time in which the service has opened its devices and answers Hello and CreateSession: a second or two, much more on a machine that
 /// is busy otherwise. Clients wait a little longer than this, so that they hear its reason.
 constexpr XrDuration openingLimit = 60 * second;

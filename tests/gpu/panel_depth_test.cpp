@@ -187,7 +187,7 @@ TEST_F(PanelDepth, WhatIsNoDistanceIsInfinitelyFarOrNearest)
 	const std::pair<float, double> cases[] = {{nan, 0}, {-nan, 0}, {-infinity, 0}, {-3, 0}, {infinity, nearestMoved}, {1, nearestMoved}};
 	for (const auto &[value, distance] : cases) {
 		SCOPED_TRACE(value);
-		setDepth(layer, addDepth(8, 8, [&](auto...) { return value; }));
+		setDepth(layer, addDepth(8, 8, [number = value](auto...) { return number; }));
 		render();
 		expectDotAt(distance);
 	}
