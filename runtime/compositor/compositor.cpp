@@ -9,8 +9,7 @@ Compositor::Compositor(const Surroundings &surroundings, const Pacer &pacer, std
 	: loop_(std::make_unique<Loop>(surroundings, pacer, std::move(panel)))
 {
 	// Taken here: from the constructor's return on, a stepped clock does not move without this thread.
-	thread_ =
-		std::jthread([loop = loop_.get(), hold = Clock::Hold(surroundings.clock)](std::stop_token stop) { loop->run(std::move(stop)); });
+	thread_ = std::jthread([loop = loop_.get(), hold = Clock::Hold(surroundings.clock)](const std::stop_token &stop) { loop->run(stop); });
 }
 
 Compositor::~Compositor()

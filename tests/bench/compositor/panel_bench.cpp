@@ -199,7 +199,10 @@ void makeRenderer(benchmark::State &state)
 {
 	gpu::Device device;
 	const Rig rig = readRig(ARIFT_RIG);
-	for (auto _ : state) PanelRenderer(device, rig).warmUp();
+	for (auto _ : state) {
+		PanelRenderer renderer(device, rig);
+		renderer.warmUp();
+	}
 }
 
 #define ARIFT_FRAME_BENCHMARK(name) BENCHMARK(name)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()
