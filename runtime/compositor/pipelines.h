@@ -31,7 +31,7 @@ struct PipelineKey {
 	Look look = Look::backdrop;
 	bool keyed = false;              ///< a colour of the layer stands for what is behind it
 	Surface surface = Surface::none; ///< what the layer lies on, where surface.frag draws it
-	auto operator<=>(const PipelineKey &) const = default;
+	auto operator<=>(const PipelineKey &) const = default; // NOLINT(modernize-use-nullptr): its zero is no pointer
 };
 
 /// What is drawn day after day: both cameras with linear values, layers of sRGB encoded texels, through the lens.

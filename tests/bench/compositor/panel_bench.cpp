@@ -199,10 +199,7 @@ void makeRenderer(benchmark::State &state)
 {
 	gpu::Device device;
 	const Rig rig = readRig(ARIFT_RIG);
-	for (auto _ : state) {
-		PanelRenderer renderer(device, rig);
-		renderer.warmUp();
-	}
+	for ([[maybe_unused]] auto _ : state) PanelRenderer(device, rig).warmUp();
 }
 
 #define ARIFT_FRAME_BENCHMARK(name) BENCHMARK(name)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()
