@@ -61,8 +61,10 @@ void Compositor::Loop::latchLayers(Frame &frame, const XrPosef &head, Latched &l
 			// theirs.
 			const bool hidesOthers = content->hidesOthers && order > 0;
 			if (order == 0 || hidesOthers) latched.blendMode = content->blendMode;
-			if (hidesOthers) latched.layers.clear();
-			if (hidesOthers) together.clear();
+			if (hidesOthers) {
+				latched.layers.clear();
+				together.clear();
+			}
 			together.push_back(content->layers);
 		}
 		const bool isLast = i + 1 == frame.sources.size() || frame.sources[i + 1]->order() != order;

@@ -53,15 +53,16 @@ void Session::releaseIfComplete(State &state, Afterwards &afterwards)
 void Session::setRunning(bool running)
 {
 	Afterwards afterwards;
-	const auto shown = shown_.lock();
-	if (!running) shown->submission.reset();
-	state_.update([&](State &state) {
-		state.running = running;
-		if (running) state.pace = {}; // the pause before was no interval
-		if (running) return;
-		state.newest.reset();
-		if (state.waiting) afterwards.ready = answer(state);
-		afterwards.released = std::exchange(state.hold, std::nullopt);
+	shown_.update([&](Shown &shown) {
+		if (!running) shown.submission.reset();
+		state_.update([&](State &state) {
+			state.running = running;
+			if (running) state.pace = {}; // the pause before was no interval
+			if (running) return;
+			state.newest.reset();
+			if (state.waiting) afterwards.ready = answer(state);
+			afterwards.released = std::exchange(state.hold, std::nullopt);
+		});
 	});
 	finish(afterwards);
 }
@@ -163,18 +164,18 @@ void Session::take(const ipc::Submission &message)
 	Afterwards afterwards;
 	images_.fetch(message);
 	const XrTime now = clock_.now();
-	const auto shown = shown_.lock();
-	uint64_t received = 0, relinquished = 0;
-	state_.update([&](State &state) {
-		received = std::exchange(state.received, std::max(state.received, message.frame));
-		relinquished = state.relinquished;
+	shown_.update([&](Shown &shown) {
+		uint64_t received = 0, relinquished = 0;
+		state_.update([&](State &state) {
+			received = std::exchange(state.received, std::max(state.received, message.frame));
+			relinquished = state.relinquished;
+		});
+		if (message.frame <= received) throw Malformed("submission {} comes after a later one", message.frame);
+		if (message.frame <= relinquished) return;
+		shown.submission = std::make_shared<const ipc::Submission>(message);
+		shown.submissionCame = now;
+		show(shown.content());
 	});
-	if (message.frame <= received) throw Malformed("submission {} comes after a later one", message.frame);
-	if (message.frame > relinquished) {
-		shown->submission = std::make_shared<const ipc::Submission>(message);
-		shown->submissionCame = now;
-		show(shown->content());
-	}
 	state_.update([&](State &state) { releaseIfComplete(state, afterwards); });
 	finish(afterwards);
 }
