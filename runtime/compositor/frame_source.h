@@ -26,7 +26,7 @@ public:
 	/// Of the session, for people.
 	virtual uint32_t number() const { return 0; }
 	/// The lowest is drawn first; those with the same by distance (Surroundings::nearerOver), or in the order in which they were added.
-	/// More than 0: an overlay, which leaves the world as it is.
+	/// More than 0: an overlay, which leaves the world as it is unless it hides others.
 	virtual uint64_t order() const { return 0; }
 	/// A refresh an application can still draw for, when it is woken now.
 	struct Opportunity {

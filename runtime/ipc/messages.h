@@ -290,7 +290,7 @@ struct Relinquish {
 	uint64_t frame = 0;
 };
 
-/// What a gamepad's motors are to do from now on, for ten seconds at most, while the session has the focus. No reply.
+/// What a gamepad's motors are to do from now on, for a minute at most, while the session has the focus. No reply.
 struct Vibrate {
 	static constexpr MessageType type = MessageType::vibrate;
 	Header header{type};
