@@ -29,8 +29,8 @@ struct PipelineKey {
 	bool layerEncoded = false; ///< the layer's texels are sRGB encoded
 	bool throughLens = true;
 	Look look = Look::backdrop;
-	bool keyed = false;              ///< a colour of the layer stands for what is behind it
-	Surface surface = Surface::none; ///< what the layer lies on, where surface.frag draws it
+	bool keyed = false;                                    ///< a colour of the layer stands for what is behind it
+	Surface surface = Surface::none;                       ///< what the layer lies on, where surface.frag draws it
 	auto operator<=>(const PipelineKey &) const = default; // NOLINT(modernize-use-nullptr): its zero is no pointer
 };
 
