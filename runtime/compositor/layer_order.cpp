@@ -22,7 +22,8 @@ glm::dvec3 headIn(const XrPosef &pose, bool headLocked, const XrPosef &headInOri
 double distanceOf(const QuadView &quad, bool headLocked, const XrPosef &headInOrigin)
 {
 	const glm::dvec3 head = headIn(quad.quadInFrame, headLocked, headInOrigin);
-	const glm::dvec2 beside = glm::abs(glm::dvec2(head)) - 0.5 * glm::dvec2(quad.size.width, quad.size.height);
+	// An image whose rows go up stands on a quad of negative height.
+	const glm::dvec2 half = 0.5 * glm::abs(glm::dvec2(quad.size.width, quad.size.height)), beside = glm::abs(glm::dvec2(head)) - half;
 	return glm::length(glm::dvec3(glm::max(beside, 0.0), head.z));
 }
 
@@ -50,19 +51,22 @@ double distanceOf(const PanelLayer &layer, const XrPosef &headInOrigin)
 void mergeByDistance(std::span<const std::span<const PanelLayer>> applications, const XrPosef &headInOrigin, std::vector<PanelLayer> &all)
 {
 	struct Queue {
-		std::span<const PanelLayer> left;
-		double distance; ///< of the next one; less than nothing: there is none
+		std::span<const PanelLayer> left; ///< never empty
+		double distance;                  ///< of the next one
 	};
-	const auto distanceOfNext = [&](std::span<const PanelLayer> left) { return left.empty() ? -1 : distanceOf(left[0], headInOrigin); };
 	FrameVector<Queue> queues;
-	for (const std::span<const PanelLayer> &layers : applications) queues.push_back({layers, distanceOfNext(layers)});
-	for (;;) {
+	for (const std::span<const PanelLayer> &layers : applications)
+		if (!layers.empty()) queues.push_back({layers, distanceOf(layers[0], headInOrigin)});
+	while (queues.size() > 1) {
 		const auto farthest = std::ranges::max_element(queues, {}, &Queue::distance);
-		if (farthest == queues.end() || farthest->distance < 0) return;
 		all.push_back(farthest->left[0]);
 		farthest->left = farthest->left.subspan(1);
-		farthest->distance = distanceOfNext(farthest->left);
+		if (farthest->left.empty())
+			queues.erase(farthest);
+		else
+			farthest->distance = distanceOf(farthest->left[0], headInOrigin);
 	}
+	for (const Queue &last : queues) all.insert(all.end(), last.left.begin(), last.left.end());
 }
 
 } // namespace arift

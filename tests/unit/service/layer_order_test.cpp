@@ -46,6 +46,8 @@ TEST(LayerDistance, IsToTheNearestPointOfAQuad)
 	const XrPosef aside{identityPose.orientation, {3.5f, 0, -2 + 4.0f}};
 	EXPECT_DOUBLE_EQ(distanceOf(quadAt(2), aside), 5) << "3 m beyond its edge, 4 m before its plane";
 	EXPECT_DOUBLE_EQ(distanceOf(quadAt(2, 1, {7, 1}), aside), 4);
+	const XrPosef above{identityPose.orientation, {0, 3.5f, -2 + 4.0f}};
+	for (const float height : {1.0f, -1.0f}) EXPECT_DOUBLE_EQ(distanceOf(quadAt(2, 1, {1, height}), above), 5) << "rows that go up";
 	PanelLayer locked = quadAt(2);
 	locked.headLocked = true;
 	EXPECT_DOUBLE_EQ(distanceOf(locked, aside), 2);
