@@ -13,8 +13,10 @@ namespace arift
 {
 
 /// add() takes no lock, allocates nothing and makes no system call: a thread of the trace's own writes the file. Events that come faster
-/// than it writes are dropped and counted. The file is whole JSON after every write, so also when the process is killed; a file that cannot
-/// grow any more, by its limit or because the disk is full, stays as it is and the log says so once.
+/// than it writes are dropped and counted. The file is whole JSON after every write. A process that is killed in the middle of one leaves
+/// whole lines, an event each, and perhaps a torn one behind them, without the closing bracket: readers of the format's array form do
+/// without both ("Trace Event Format", JSON Array Format). A file that cannot grow any more, by its limit or because the disk is full,
+/// stays as it is and the log says so once.
 class Trace
 {
 public:
