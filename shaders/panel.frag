@@ -125,14 +125,13 @@ vec3 behindLayers(vec2 tangents, Chromatic chromatic, float r2)
 vec4 keptOf(vec2 middle)
 {
 	vec4 red = textureGather(layerTexture, middle, 0), green = textureGather(layerTexture, middle, 1);
-	vec4 blue = textureGather(layerTexture, middle, 2), kept;
+	vec4 blue = textureGather(layerTexture, middle, 2);
 	if (!layerEncoded) {
 		red = encodedLight(red);
 		green = encodedLight(green);
 		blue = encodedLight(blue);
 	}
-	for (int i = 0; i < 4; ++i) kept[i] = keptBy(vec3(red[i], green[i], blue[i]), layerFurther[0].rgb, layerFurther[0].a, layerFurther[1].x);
-	return kept;
+	return keptOfFour(red, green, blue, layerFurther[0], layerFurther[1].x);
 }
 
 /// Light and cover of one colour at a texel (integers at texel centres): between the four texels around it, after decoding them.
@@ -148,8 +147,7 @@ vec2 layerTexel(vec2 texel, float w, int channel)
 	vec4 alpha = textureGather(layerTexture, middle, 3);
 	if (keyed) alpha = keptOf(middle);
 	if (layerEncoded) value = decoded(value);
-	// What is half the key's colour has that much of it to lose, and no more light than a picture of that alpha.
-	if (keyed) value = clamp(value - (1.0 - alpha) * decoded(vec4(layerFurther[0].rgb, 0.0))[channel], vec4(0.0), alpha) * layerFurther[1].y;
+	if (keyed) value = withoutKey(value, vec4(1.0), alpha, decoded(layerFurther[0])[channel]) * layerFurther[1].y;
 	if (keyed) alpha *= layerFurther[1].y;
 	if (layerCover == coverOpaque) {
 		const vec2 across = value.wx + (value.zy - value.wx) * part.x;

@@ -3,16 +3,24 @@
 // One pixel of a layer that is not plain: on a cylinder, a sphere or a cube, as far away as a projection view's depth says, or with scaled
 // colour or blend factors of its own. Over what is there, in linear light; every colour at its own place, and with its own alpha.
 #include "panel_lens.glsl"
+#include "surface_block.h"
+#include "chroma_key.glsl"
 
+layout(constant_id = 68) const bool keyed = false;           // a colour of the layer stands for what is behind it
 layout(constant_id = 69) const int surface = 1;              // Surface (compositor/panel_inputs.h)
 const int surfaceCylinder = 2, surfaceSphere = 3;
 const bool curved = surface == surfaceCylinder || surface == surfaceSphere;
+layout(constant_id = 70) const int depth = 0;                // Depth (compositor/pipelines.h)
+const int depthUnused = 0, depthOutside = 2;
+layout(constant_id = 71) const bool keptByAlphaBelow = false; // what is below is multiplied by its own alpha wherever something is drawn
 
 #ifdef ARIFT_CUBE
 layout(set = 1, binding = 0) uniform samplerCube layerTexture; // light: its format decodes
 #else
 layout(set = 1, binding = 0) uniform sampler2D layerTexture;   // values as they are stored: nothing is decoded
 #endif
+
+layout(set = 2, binding = 0, std140) uniform Surface { SurfaceBlock block; }; // for its key alone
 
 layout(location = 0) noperspective in vec2 lensVector;       // tangents before the lens correction
 layout(location = 1) noperspective in mat3 rayMatrix;        // SurfaceBlock, at this line
@@ -24,7 +32,7 @@ layout(location = 8) flat in vec4 colorBias;
 layout(location = 9) flat in vec4 source;
 layout(location = 10) flat in vec4 kept;
 layout(location = 11) flat in vec4 texels;
-layout(location = 12) flat in vec2 size;
+layout(location = 12) flat in vec4 size;
 #ifdef ARIFT_DEPTH
 layout(set = 3, binding = 0) uniform sampler2D depthTexture;
 layout(location = 13) flat in vec4 depthTexel;
@@ -36,19 +44,36 @@ layout(location = 0, index = 0) out vec4 light;
 layout(location = 0, index = 1) out vec4 cover;              // how much of what is there it takes away
 
 const float turn = 6.28318530718;
+/// What is nearer than this, metres, is as near as this to a depth test.
+const float nearestTested = 0.01;
+
+/// Of one kind of a texel's colour, encoded or as light; alpha as it counts.
+vec4 straightened(vec4 colour, vec4 alpha) { return texels.w > 0.0 ? colour : clamp(colour / max(alpha, 1e-4), 0.0, 1.0); }
 
 #ifdef ARIFT_CUBE
-/// Colours and their alphas.
-void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there)
+/// Premultiplied.
+vec4 keyedOut(vec4 light)
+{
+	const vec4 alpha = vec4(mix(light.a, 1.0, texels.y)), straight = straightened(light, alpha), encoded = encodedLight(straight);
+	const vec4 left = alpha * keptBy(encoded.rgb, block.key.rgb, block.key.a, size.w), keyLight = decoded(block.key);
+	vec4 colour = vec4(0.0, 0.0, 0.0, left.a);
+	for (int channel = 0; channel < 3; ++channel) colour[channel] = withoutKey(straight * alpha, alpha, left, keyLight[channel])[channel];
+	return colour;
+}
+
+/// Colours, their alphas, and green's 1 / distance ahead of the eye.
+void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there, out float nearness)
 {
 	const vec3 across = rayMatrix[0] * seen.tangents.x + rayMatrix[1] * seen.tangents.y;
 	const float factors[3] = float[](seen.chromatic.red, 1.0, seen.chromatic.blue);
 	for (int channel = 0; channel < 3; ++channel) {
-		const vec4 rgba = textureLod(layerTexture, rayMatrix[2] + across * factors[channel], 0.0);
+		vec4 rgba = textureLod(layerTexture, rayMatrix[2] + across * factors[channel], 0.0);
+		if (keyed) rgba = keyedOut(rgba);
 		colour[channel] = rgba[channel];
 		alpha[channel] = rgba.a;
 	}
 	there = vec3(1.0);
+	nearness = 0.0;
 }
 #else
 /// Where a ray meets the surface, from inside: flat: texel; else angle to the right, and angle up or height in radii. z > 0: it does.
@@ -67,16 +92,31 @@ vec3 met(vec3 ray)
 
 vec2 texelOf(vec3 place) { return curved ? placing.xy + place.xy * placing.zw : place.xy; }
 
-/// One colour and its alpha between the four texels around a place, after decoding them; nothing beyond the sub-image.
+/// One colour of four texels, without decoding, as if it were straight and opaque, and encoded.
+vec4 straightOfFour(vec2 middle, int channel, vec4 alpha)
+{
+	const vec4 stored = channel == 0   ? textureGather(layerTexture, middle, 0)
+						: channel == 1 ? textureGather(layerTexture, middle, 1)
+									   : textureGather(layerTexture, middle, 2);
+	// What was multiplied was light.
+	return encodedLight(straightened(mix(stored, decoded(stored), texels.x), alpha));
+}
+
+/// One colour and its alpha between the four texels around a place, after decoding them; nothing beyond the sub-image. Keyed: premultiplied.
 vec2 sampled(vec3 place, int channel, out float there)
 {
 	const vec2 texel = texelOf(place), at = within(texel, bounds.xy, bounds.zw), off = abs(texel - at);
-	const vec2 base = floor(at), part = at - base, middle = (base + 1.0) * size;
+	const vec2 base = floor(at), part = at - base, middle = (base + 1.0) * size.xy;
 	vec4 value = channel == 0   ? textureGather(layerTexture, middle, 0)
 				 : channel == 1 ? textureGather(layerTexture, middle, 1)
 								: textureGather(layerTexture, middle, 2);
-	const vec4 alpha = textureGather(layerTexture, middle, 3);
+	vec4 alpha = textureGather(layerTexture, middle, 3);
 	value = mix(value, decoded(value), texels.x);
+	if (keyed) {
+		const vec4 own = mix(alpha, vec4(1.0), texels.y);
+		alpha = own * keptOfFour(straightOfFour(middle, 0, own), straightOfFour(middle, 1, own), straightOfFour(middle, 2, own), block.key, size.w);
+		value = withoutKey(straightened(value, own) * own, own, alpha, decoded(block.key)[channel]);
+	}
 	// A little more than half a texel: a whole turn ends where it begins, whatever is rounded.
 	there = place.z > 0.0 && max(off.x, off.y) <= 0.501 ? 1.0 : 0.0;
 	const vec4 left = vec4(value.wx, alpha.wx), across = left + (vec4(value.zy, alpha.zy) - left) * part.x;
@@ -132,10 +172,10 @@ float metNearness(vec3 ray)
 }
 
 /// All colours are as far away as green: where edges move by much, red and blue have theirs a few pixels off.
-void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there)
+void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there, out float nearness)
 {
 	const vec3 across = rayMatrix[0] * seen.tangents.x + rayMatrix[1] * seen.tangents.y;
-	const float nearness = metNearness(rayMatrix[2] + across);
+	nearness = metNearness(rayMatrix[2] + across);
 	const vec3 green = placeAt(rayMatrix[2] + across, nearness);
 	const vec3 blue = placeAt(rayMatrix[2] + across * seen.chromatic.blue, nearness);
 	const vec3 red = redItself ? placeAt(rayMatrix[2] + across * seen.chromatic.red, nearness)
@@ -145,11 +185,12 @@ void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there)
 	alpha = vec3(r.y, g.y, b.y);
 }
 #else
-void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there)
+void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there, out float nearness)
 {
 	const vec3 across = rayMatrix[0] * seen.tangents.x + rayMatrix[1] * seen.tangents.y;
 	const vec3 green = met(rayMatrix[2] + across), blue = met(rayMatrix[2] + across * seen.chromatic.blue);
 	const vec3 red = redItself ? met(rayMatrix[2] + across * seen.chromatic.red) : redOf(green, blue, seen.chromatic.redFromBlue);
+	nearness = curved ? size.z / max(green.z, 1e-6) : green.z * origin.x;
 	const vec2 r = sampled(red, 0, there.x), g = sampled(green, 1, there.y), b = sampled(blue, 2, there.z);
 	colour = vec3(r.x, g.x, b.x);
 	alpha = vec3(r.y, g.y, b.y);
@@ -161,12 +202,22 @@ void main()
 {
 	const Seen seen = throughTheLens(lensVector);
 	vec3 colour, alpha, there;
-	layerColour(seen, colour, alpha, there);
-	alpha = mix(alpha, vec3(1.0), texels.y);
+	float nearness;
+	layerColour(seen, colour, alpha, there, nearness);
+	if ((depth != depthUnused || keptByAlphaBelow) && there == vec3(0.0)) discard;
+	if (depth != depthUnused) {
+#ifdef ARIFT_DEPTH
+		const bool within = nearness >= placing.x && nearness <= placing.y;
+		if (within == (depth == depthOutside)) discard;
+#endif
+		gl_FragDepth = clamp(nearness * nearestTested, 0.0, 1.0);
+	}
+	if (!keyed) alpha = mix(alpha, vec3(1.0), texels.y);
+	const float isStraight = keyed ? 0.0 : texels.w;
 	// XR_KHR_composition_layer_color_scale_bias: of straight colour, which then is what it was before, straight or not.
-	const vec3 straight = texels.w > 0.0 ? colour : mix(vec3(0.0), colour / max(alpha, 1e-6), greaterThan(alpha, vec3(0.0)));
+	const vec3 straight = isStraight > 0.0 ? colour : mix(vec3(0.0), colour / max(alpha, 1e-6), greaterThan(alpha, vec3(0.0)));
 	const vec3 scaledAlpha = clamp(alpha * colorScale.a + colorBias.a, 0.0, 1.0);
-	const vec3 scaled = max(straight * colorScale.rgb + colorBias.rgb, 0.0) * (texels.w > 0.0 ? vec3(1.0) : scaledAlpha);
+	const vec3 scaled = max(straight * colorScale.rgb + colorBias.rgb, 0.0) * (isStraight > 0.0 ? vec3(1.0) : scaledAlpha);
 	if (texels.z > 0.0) {
 		colour = scaled;
 		alpha = scaledAlpha;

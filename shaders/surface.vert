@@ -21,7 +21,7 @@ layout(location = 8) flat out vec4 colorBias;
 layout(location = 9) flat out vec4 source;
 layout(location = 10) flat out vec4 kept;
 layout(location = 11) flat out vec4 texels;
-layout(location = 12) flat out vec2 size;
+layout(location = 12) flat out vec4 size;
 #ifdef ARIFT_DEPTH
 layout(location = 13) flat out vec4 depthTexel;
 layout(location = 14) flat out vec4 depthBounds;
@@ -45,7 +45,7 @@ void main()
 	source = block.source;
 	kept = block.kept;
 	texels = block.texels;
-	size = block.size.xy;
+	size = block.size;
 #ifdef ARIFT_DEPTH
 	depthTexel = block.depthTexel;
 	depthBounds = block.depthBounds;

@@ -118,7 +118,9 @@ const LayerTexture &textureOf(const PanelLayer &layer, size_t eye)
 	return layer.curved[eye] ? layer.curved[eye]->texture : layer.cube[eye]->texture;
 }
 
-bool isOpaque(const PanelLayer &layer) { return !(layer.flags & XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT) && !layer.key; }
+bool hasAlpha(const PanelLayer &layer) { return layer.factors || (layer.flags & XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT); }
+
+bool isOpaque(const PanelLayer &layer) { return !hasAlpha(layer) && !layer.key; }
 
 shaders::LayerBlock layerBlock(const PanelLayer &layer, size_t eye, uint32_t band, const MatrixByBand &uv, uint32_t width, uint32_t height)
 {

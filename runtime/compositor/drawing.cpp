@@ -8,16 +8,9 @@ namespace arift
 namespace
 {
 
-enum class Kind { flat, cube, depth };
-Kind kindOf(const gpu::ImageSpec &spec)
+bool lies(const LayerTexture &texture, const gpu::ImageSpec &spec, gpu::ImageKind kind)
 {
-	if (gpu::isDepth(VkFormat(spec.format))) return Kind::depth;
-	return gpu::isCube(spec) ? Kind::cube : Kind::flat;
-}
-
-bool lies(const LayerTexture &texture, const gpu::ImageSpec &spec, Kind kind)
-{
-	if (kindOf(spec) != kind) return false;
+	if (gpu::kindOf(spec) != kind) return false;
 	const XrOffset2Di &corner = texture.rect.offset;
 	const XrExtent2Di &extent = texture.rect.extent;
 	return corner.x >= 0 && corner.y >= 0 && extent.width > 0 && extent.height > 0 &&
@@ -46,7 +39,8 @@ PipelineKey backdropOf(const CameraView *camera, bool throughLens)
 	return {.background = Background::camera, .camera = camera->lens, .encoded = !camera->linear, .throughLens = throughLens};
 }
 
-/// Pictures for people and layers with a key are rare: they have no pipelines of their own for what lies wholly inside a layer.
+/// Pictures for people and layers with a key are rare: they have no pipelines of their own for what lies wholly inside a layer. Where
+/// depths are tested, what an opaque layer hides may hide what is above that.
 void blendEverywhere(FrameVector<Cover> &cover)
 {
 	std::ranges::replace_if(
@@ -81,12 +75,11 @@ public:
 		const size_t count = std::min(draw_.inputs.layers.size(), maxDrawnLayers);
 		covers_.resize(count);
 		blocks_.resize(count);
-		encoded_.resize(count);
-		surfaces_.resize(count);
+		pipelines_.resize(count);
 		needsAlpha_.resize(count);
-		for (size_t i = 0; i < count; ++i) needsAlpha_[i] = needsAlphaBelow(draw_.inputs.layers[i]);
-		gathers_ =
-			draw_.inputs.blendMode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND && std::ranges::find(needsAlpha_, true) != needsAlpha_.end();
+		for (size_t i = 0; i < count; ++i) needsAlpha_[i] = needsAlpha(draw_.inputs.layers[i]);
+		tests_ = std::ranges::any_of(draw_.inputs.layers, [](const PanelLayer &layer) { return layer.depthTest.has_value(); });
+		gathers_ = std::ranges::find(needsAlpha_, true) != needsAlpha_.end();
 		for (size_t i = 0; i < count; ++i) addLayer(i);
 		const PipelineKey backdrop = backdropOf(camera, draw_.geometry.throughLens);
 		addItems(backdrop, firstEyeBlock, seen);
@@ -104,6 +97,12 @@ private:
 		return matrices;
 	}
 
+	/// With no world behind the layers, or light added to them, their alpha matters only to one of them that asks for it.
+	bool needsAlpha(const PanelLayer &layer) const
+	{
+		return draw_.inputs.blendMode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND ? needsAlphaBelow(layer) : readsAlphaBelow(layer);
+	}
+
 	void addLayer(size_t index)
 	{
 		const PanelLayer &layer = draw_.inputs.layers[index];
@@ -111,12 +110,29 @@ private:
 		if (surface == Surface::none) return;
 		const LayerTexture &texture = textureOf(layer, draw_.eye);
 		const auto image = findImage_(texture);
-		if (!image || !lies(texture, *image->spec, surface == Surface::cube ? Kind::cube : Kind::flat)) return;
-		surfaces_[index] = isDeep(layer) ? Surface::deep : isPlain(layer) && !gathers_ ? Surface::none : surface;
-		if (surfaces_[index] == Surface::none)
+		if (!image || !lies(texture, *image->spec, surface == Surface::cube ? gpu::ImageKind::cube : gpu::ImageKind::flat)) return;
+		const PipelineKey key = surfaceKey(layer, isDeep(layer) ? Surface::deep : surface);
+		if (isPlain(layer) && !gathers_ && key.surface == Surface::flat && key.depth == Depth::unused)
 			addPlain(index, layer, *image);
 		else
-			addSurface(index, layer, *image);
+			addSurface(index, key, layer, *image);
+	}
+
+	/// What surface.frag draws it with; a view that is not deep is not tested.
+	PipelineKey surfaceKey(const PanelLayer &layer, Surface surface) const
+	{
+		PipelineKey key{.blend = Blend::over,
+						.layer = Cover::partly,
+						.throughLens = draw_.geometry.throughLens,
+						.keyed = layer.key.has_value(),
+						.surface = surface,
+						.byAlphaBelow = alphaBelowFactors(layer)};
+		if (layer.depthTest && (surface == Surface::deep || !layer.projection[draw_.eye])) {
+			key.depth = Depth::tested;
+			key.compare = layer.depthTest->compare;
+			key.writesDepth = layer.depthTest->writes;
+		}
+		return key;
 	}
 
 	bool isDeep(const PanelLayer &layer) const
@@ -124,7 +140,7 @@ private:
 		if (!seesDepth(layer, draw_.eye, eyes_)) return false;
 		const LayerTexture &depth = layer.projection[draw_.eye]->depth->texture;
 		const auto image = findImage_(depth);
-		return image && lies(depth, *image->spec, Kind::depth) && isReady_(deepKey(draw_.geometry.throughLens));
+		return image && lies(depth, *image->spec, gpu::ImageKind::depth) && isReady_(surfaceKey(layer, Surface::deep));
 	}
 
 	void addPlain(size_t index, const PanelLayer &layer, const KnownImage &image)
@@ -136,17 +152,20 @@ private:
 		const glm::dvec2 border(0.5 / texture.rect.extent.width, 0.5 / texture.rect.extent.height);
 		covers_[index] =
 			coverage(draw_.grid, *matrices, border, contentOf(texture, layer.key ? nullptr : image.occupancy, isOpaque(layer)));
-		if (!draw_.geometry.throughLens || layer.key) blendEverywhere(covers_[index]);
-		encoded_[index] = gpu::storedFormat(VkFormat(image.spec->format)) != VkFormat(image.spec->format);
+		if (!draw_.geometry.throughLens || layer.key || tests_) blendEverywhere(covers_[index]);
+		pipelines_[index] = {.layerEncoded = gpu::storedFormat(VkFormat(image.spec->format)) != VkFormat(image.spec->format),
+							 .throughLens = draw_.geometry.throughLens,
+							 .keyed = layer.key.has_value()};
 		blocks_[index] = uint32_t(drawing_.layerBlocks.size());
 		for (uint32_t band = 0; band < bandCount; ++band)
 			drawing_.layerBlocks.push_back(layerBlock(layer, draw_.eye, band, *matrices, image.spec->width, image.spec->height));
 	}
 
 	/// Where its image is empty, a layer may have a bias, or hide what is below it.
-	void addSurface(size_t index, const PanelLayer &layer, const KnownImage &image)
+	void addSurface(size_t index, const PipelineKey &key, const PanelLayer &layer, const KnownImage &image)
 	{
-		const Surface surface = surfaces_[index];
+		const Surface surface = key.surface;
+		pipelines_[index] = key;
 		const auto rays = surfaceRays(layer, surface, draw_.eye, eyes_);
 		if (!rays) return;
 		Occupancy *occupancy = isShownWhereEmpty(layer) ? nullptr : image.occupancy;
@@ -201,30 +220,44 @@ private:
 
 	void addItem(const TileDraw &tiles, const PipelineKey &backdrop, uint32_t firstEyeBlock)
 	{
-		DrawItem item{.pipeline = {.throughLens = draw_.geometry.throughLens}};
-		if (tiles.behind == Behind::camera) item.pipeline = backdrop;
-		if (tiles.behind == Behind::unseen) item.pipeline.background = Background::unseen;
+		DrawItem item{.pipeline = {.throughLens = draw_.geometry.throughLens}, .eyeBlock = firstEyeBlock + tiles.band};
+		if (tiles.layer >= 0) describeLayer(item, size_t(tiles.layer), tiles.band);
+		if (tiles.behind != Behind::nothing) {
+			item.pipeline.background = tiles.behind == Behind::camera ? backdrop.background : Background::unseen;
+			item.pipeline.camera = tiles.behind == Behind::camera ? backdrop.camera : 0;
+			item.pipeline.encoded = tiles.behind == Behind::camera && backdrop.encoded;
+		}
 		item.pipeline.blend = tiles.blend;
 		// What is behind an opaque layer is drawn with it only where light is added to it: too seldom for a pipeline.
 		const bool alone = item.pipeline.background == Background::none;
 		item.pipeline.layer = tiles.cover == Cover::opaque && !alone ? Cover::fully : tiles.cover;
-		item.eyeBlock = firstEyeBlock + tiles.band;
-		if (tiles.layer >= 0) {
-			item.layerBlock = blocks_[size_t(tiles.layer)] + tiles.band;
-			const LayerTexture &texture = textureOf(draw_.inputs.layers[size_t(tiles.layer)], draw_.eye);
-			item.image = texture.image;
-			item.arrayIndex = texture.arrayIndex;
-			item.pipeline.surface = surfaces_[size_t(tiles.layer)];
-			item.pipeline.layerEncoded = encoded_[size_t(tiles.layer)];
-			if (item.pipeline.surface == Surface::deep) {
-				const LayerTexture &depth = draw_.inputs.layers[size_t(tiles.layer)].projection[draw_.eye]->depth->texture;
-				item.depthImage = depth.image;
-				item.depthArrayIndex = depth.arrayIndex;
-			}
-			// Only plain layers are keyed out.
-			item.pipeline.keyed = item.pipeline.surface == Surface::none && draw_.inputs.layers[size_t(tiles.layer)].key;
-		}
 		addRects(item, tiles.rects);
+		if (item.pipeline.depth == Depth::unused || !hasRange(draw_.inputs.layers[size_t(tiles.layer)])) return;
+		item.pipeline.depth = Depth::outside;
+		item.pipeline.compare = PipelineKey{}.compare;
+		item.pipeline.writesDepth = false;
+		addRects(item, tiles.rects);
+	}
+
+	void describeLayer(DrawItem &item, size_t index, uint32_t band) const
+	{
+		const PanelLayer &layer = draw_.inputs.layers[index];
+		const LayerTexture &texture = textureOf(layer, draw_.eye);
+		item.pipeline = pipelines_[index];
+		item.layerBlock = blocks_[index] + band;
+		item.image = texture.image;
+		item.arrayIndex = texture.arrayIndex;
+		if (item.pipeline.surface != Surface::deep) return;
+		const LayerTexture &depth = layer.projection[draw_.eye]->depth->texture;
+		item.depthImage = depth.image;
+		item.depthArrayIndex = depth.arrayIndex;
+	}
+
+	/// Of a view that is tested.
+	bool hasRange(const PanelLayer &layer) const
+	{
+		const auto &view = layer.projection[draw_.eye];
+		return view && (view->depth->testedFrom > 0 || view->depth->testedTo > 0);
 	}
 
 	Drawing &drawing_;
@@ -234,10 +267,10 @@ private:
 	EyesByBand eyes_;
 	FrameVector<FrameVector<Cover>> covers_; ///< by layer
 	FrameVector<uint32_t> blocks_;           ///< by layer: its first block
-	FrameVector<bool> encoded_;              ///< by layer: its texels are sRGB encoded, where it is plain
-	FrameVector<Surface> surfaces_;          ///< by layer: none where it is plain
-	FrameVector<bool> needsAlpha_;           ///< by layer: needsAlphaBelow()
+	FrameVector<PipelineKey> pipelines_;     ///< by layer: what of it is drawn with, wherever it is
+	FrameVector<bool> needsAlpha_;           ///< by layer: needsAlpha()
 	bool gathers_ = false;                   ///< a layer needs it: all are drawn so that their alpha is known
+	bool tests_ = false;                     ///< a layer may be tested
 };
 
 } // namespace

@@ -1,6 +1,5 @@
 // The whole drawing of one image as data: what is drawn where, with which pipeline and which numbers. Pure.
 #pragma once
-#include "runtime/compositor/pipelines.h"
 #include "runtime/compositor/surface.h"
 
 namespace arift

@@ -40,6 +40,8 @@ struct LayerTexture {
 struct ViewDepth {
 	LayerTexture texture; ///< over its rectangle as the colours over theirs
 	float inverseBias = 0, inverseScale = 0;
+	/// Metres: outside, the layer's depth test lets everything through; testedTo 0: there is no such end.
+	float testedFrom = 0, testedTo = 0;
 };
 /// One layer as one eye sees it.
 struct ProjectionView {
@@ -72,6 +74,12 @@ struct CubeView {
 struct BlendFactors {
 	XrBlendFactorFB sourceColor, keptColor, sourceAlpha, keptAlpha;
 };
+/// XR_FB_composition_layer_depth_test, XR_VARJO_composition_layer_depth_test: a layer is seen or not by how far away it is there, and how
+/// far away what was drawn with such a test is: infinitely at first. A projection view without depth is not tested.
+struct DepthTest {
+	VkCompareOp compare = VK_COMPARE_OP_ALWAYS; ///< the layer's distance, and the one that is there
+	bool writes = false;                        ///< where it is seen, its distance is there from then on
+};
 struct KeyedOut {
 	ChromaKey key;
 	float opacity = 1; ///< of what stays
@@ -90,6 +98,7 @@ struct PanelLayer {
 	XrCompositionLayerFlags flags = 0;
 	XrColor4f colorScale{1, 1, 1, 1}, colorBias{0, 0, 0, 0}; ///< of straight colour, before blending
 	std::optional<BlendFactors> factors;                     ///< instead of those that the flags stand for
+	std::optional<DepthTest> depthTest;
 	/// Per eye: one of these, or nothing.
 	std::array<std::optional<ProjectionView>, 2> projection;
 	std::array<std::optional<QuadView>, 2> quad;

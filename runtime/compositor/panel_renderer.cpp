@@ -4,6 +4,8 @@
 #include "runtime/compositor/camera_images.h"
 #include "runtime/compositor/drawing.h"
 #include "runtime/compositor/layer_images.h"
+#include "runtime/compositor/pipelines.h"
+#include <algorithm>
 #include <cstring>
 
 namespace arift
@@ -33,7 +35,17 @@ struct Canvas {
 					  vk::ImageTiling::eOptimal,
 					  Usage::eColorAttachment | Usage::eTransferSrc | Usage::eTransferDst}),
 		  view(gpu.device, {{}, *image.image, vk::ImageViewType::e2D, format, {}, gpu::wholeColour}),
-		  framebuffer(gpu.device, {{}, renderPass, *view, geometry.width, geometry.height, 1})
+		  depth(gpu, {{},
+					  vk::ImageType::e2D,
+					  depthFormat,
+					  {geometry.width, geometry.height, 1},
+					  1,
+					  1,
+					  vk::SampleCountFlagBits::e1,
+					  vk::ImageTiling::eOptimal,
+					  Usage::eDepthStencilAttachment}),
+		  depthView(gpu.device, {{}, *depth.image, vk::ImageViewType::e2D, depthFormat, {}, {vk::ImageAspectFlagBits::eDepth, 0, 1, 0, 1}}),
+		  framebuffer(makeFramebuffer(gpu, renderPass))
 	{
 		blacken(gpu);
 	}
@@ -41,10 +53,17 @@ struct Canvas {
 	std::array<TileGrid, 2> grids;
 	gpu::Image image;
 	vk::raii::ImageView view;
+	gpu::Image depth;
+	vk::raii::ImageView depthView;
 	vk::raii::Framebuffer framebuffer;
 	vk::Extent2D extent() const { return {geometry.width, geometry.height}; }
 
 private:
+	vk::raii::Framebuffer makeFramebuffer(const gpu::Device::Handles &gpu, vk::RenderPass renderPass) const
+	{
+		const std::array views{*view, *depthView};
+		return {gpu.device, {{}, renderPass, views, geometry.width, geometry.height, 1}};
+	}
 	/// Once: what lies outside the lens circle is never drawn, all that lies inside is, every time.
 	void blacken(gpu::Device::Handles &gpu) const
 	{
@@ -270,7 +289,10 @@ void PanelRenderer::Implementation::record(Canvas &canvas, const PanelInputs &in
 	uploadCameras(inputs);
 	cost.upload = inSeconds(realTime() - uploading);
 	layerImages.acquire(commands(), entries);
-	commands().beginRenderPass({pipelines.renderPass(), *canvas.framebuffer, {{}, extent}, {}}, vk::SubpassContents::eInline);
+	const bool tests = std::ranges::any_of(drawing.items, [](const DrawItem &item) { return item.pipeline.depth != Depth::unused; });
+	const std::array<vk::ClearValue, 2> infinitelyFar{};
+	commands().beginRenderPass({pipelines.renderPass(tests), *canvas.framebuffer, {{}, extent}, infinitelyFar},
+							   vk::SubpassContents::eInline);
 	commands().setViewport(0, vk::Viewport{0, 0, float(extent.width), float(extent.height), 0, 1});
 	commands().setScissor(0, vk::Rect2D{{}, extent});
 	drawItems(drawing);

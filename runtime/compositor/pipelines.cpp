@@ -22,7 +22,7 @@ using Layout = vk::ImageLayout;
 using Stage = vk::PipelineStageFlagBits;
 using Type = vk::DescriptorType;
 
-vk::raii::RenderPass makeRenderPass(const gpu::Device::Handles &gpu, vk::Format format)
+vk::raii::RenderPass makeRenderPass(const gpu::Device::Handles &gpu, vk::Format format, vk::AttachmentLoadOp depthAtFirst)
 {
 	const vk::AttachmentDescription colour{{},
 										   format,
@@ -33,23 +33,40 @@ vk::raii::RenderPass makeRenderPass(const gpu::Device::Handles &gpu, vk::Format 
 										   vk::AttachmentStoreOp::eDontCare,
 										   Layout::eTransferSrcOptimal,
 										   Layout::eTransferSrcOptimal};
-	const vk::AttachmentReference reference{0, Layout::eColorAttachmentOptimal};
-	const vk::SubpassDescription subpass{{}, vk::PipelineBindPoint::eGraphics, {}, reference};
+	const vk::AttachmentDescription depth{{},
+										  depthFormat,
+										  vk::SampleCountFlagBits::e1,
+										  depthAtFirst,
+										  vk::AttachmentStoreOp::eDontCare,
+										  vk::AttachmentLoadOp::eDontCare,
+										  vk::AttachmentStoreOp::eDontCare,
+										  Layout::eUndefined,
+										  Layout::eDepthStencilAttachmentOptimal};
+	const std::array attachments{colour, depth};
+	const vk::AttachmentReference colourReference{0, Layout::eColorAttachmentOptimal};
+	const vk::AttachmentReference depthReference{1, Layout::eDepthStencilAttachmentOptimal};
+	const vk::SubpassDescription subpass{{}, vk::PipelineBindPoint::eGraphics, {}, colourReference, {}, &depthReference};
 	// The image is copied from before and after it is drawn.
 	const auto drawn = Access::eColorAttachmentWrite | Access::eColorAttachmentRead;
+	const auto tests = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+	const auto tested = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
 	const std::array dependencies{
 		vk::SubpassDependency{VK_SUBPASS_EXTERNAL, 0, Stage::eTransfer, Stage::eColorAttachmentOutput, Access::eTransferRead, drawn},
+		vk::SubpassDependency{VK_SUBPASS_EXTERNAL, 0, tests, tests, Access::eDepthStencilAttachmentWrite, tested},
 		vk::SubpassDependency{0, VK_SUBPASS_EXTERNAL, Stage::eColorAttachmentOutput, Stage::eTransfer, Access::eColorAttachmentWrite,
 							  Access::eTransferRead}};
-	return {gpu.device, vk::RenderPassCreateInfo{{}, colour, subpass, dependencies}};
+	return {gpu.device, vk::RenderPassCreateInfo{{}, attachments, subpass, dependencies}};
 }
 
 template <size_t count> vk::raii::DescriptorSetLayout makeSetLayout(const gpu::Device::Handles &gpu, std::array<Type, count> types)
 {
 	std::array<vk::DescriptorSetLayoutBinding, count> bindings;
 	for (uint32_t i = 0; i < count; ++i) {
-		const bool block = types[i] == Type::eUniformBuffer || types[i] == Type::eUniformBufferDynamic;
-		bindings[i] = {i, types[i], 1, block ? vk::ShaderStageFlagBits::eVertex : vk::ShaderStageFlagBits::eFragment};
+		// A layer's key is read by fragments, too: too much for what the stages hand on.
+		vk::ShaderStageFlags stages = vk::ShaderStageFlagBits::eFragment;
+		if (types[i] == Type::eUniformBuffer) stages = vk::ShaderStageFlagBits::eVertex;
+		if (types[i] == Type::eUniformBufferDynamic) stages |= vk::ShaderStageFlagBits::eVertex;
+		bindings[i] = {i, types[i], 1, stages};
 	}
 	return {gpu.device, {{}, bindings}};
 }
@@ -76,7 +93,8 @@ struct Constants {
 	PanelNumbers numbers;
 	int32_t look;
 	VkBool32 keyed;
-	int32_t surface; ///< surface.frag's alone
+	int32_t surface, depth; ///< these three: surface.frag's alone
+	VkBool32 keptByAlphaBelow;
 };
 
 Constants constantsFor(const PanelOptics &optics, const ViewGeometry &geometry, const PipelineKey &key)
@@ -93,7 +111,9 @@ Constants constantsFor(const PanelOptics &optics, const ViewGeometry &geometry, 
 			numbersFor(optics, geometry, key.camera),
 			int32_t(key.look),
 			key.keyed,
-			int32_t(key.surface)};
+			int32_t(key.surface),
+			int32_t(key.depth),
+			key.byAlphaBelow.keptColor != ByAlphaBelow::no || key.byAlphaBelow.keptAlpha != ByAlphaBelow::no};
 }
 
 /// Constants are words: the entry of every id.
@@ -104,7 +124,31 @@ template <typename Words> auto entriesOf()
 	return entries;
 }
 
-vk::PipelineColorBlendAttachmentState blendState(Blend blend)
+vk::BlendFactor factorOf(ByAlphaBelow by, vk::BlendFactor usual)
+{
+	if (by == ByAlphaBelow::no) return usual;
+	return by == ByAlphaBelow::alpha ? vk::BlendFactor::eDstAlpha : vk::BlendFactor::eOneMinusDstAlpha;
+}
+
+/// What is near is large in the depth image.
+vk::CompareOp compareOfNearness(VkCompareOp ofDistance)
+{
+	switch (ofDistance) {
+	case VK_COMPARE_OP_LESS: return vk::CompareOp::eGreater;
+	case VK_COMPARE_OP_LESS_OR_EQUAL: return vk::CompareOp::eGreaterOrEqual;
+	case VK_COMPARE_OP_GREATER: return vk::CompareOp::eLess;
+	case VK_COMPARE_OP_GREATER_OR_EQUAL: return vk::CompareOp::eLessOrEqual;
+	default: return vk::CompareOp(ofDistance);
+	}
+}
+
+vk::PipelineDepthStencilStateCreateInfo depthState(const PipelineKey &key)
+{
+	if (key.depth != Depth::tested) return {};
+	return {{}, true, key.writesDepth, compareOfNearness(key.compare)};
+}
+
+vk::PipelineColorBlendAttachmentState blendState(const PipelineKey &key)
 {
 	using Component = vk::ColorComponentFlagBits;
 	using Factor = vk::BlendFactor;
@@ -112,57 +156,21 @@ vk::PipelineColorBlendAttachmentState blendState(Blend blend)
 	const auto state = [&](Factor colour, Factor keptColour, Factor alpha, Factor keptAlpha) {
 		return vk::PipelineColorBlendAttachmentState{true, colour, keptColour, vk::BlendOp::eAdd, alpha, keptAlpha, vk::BlendOp::eAdd, all};
 	};
-	switch (blend) {
+	const auto &[sourceColor, keptColor, sourceAlpha, keptAlpha] = key.byAlphaBelow;
+	switch (key.blend) {
 	case Blend::replace: break;
 	case Blend::clear: return state(Factor::eZero, Factor::eZero, Factor::eZero, Factor::eZero);
 	// Every colour has an alpha of its own: the second output of the shader.
-	case Blend::over: return state(Factor::eOne, Factor::eOneMinusSrc1Color, Factor::eOne, Factor::eOneMinusSrc1Alpha);
+	case Blend::over:
+		return state(factorOf(sourceColor, Factor::eOne), factorOf(keptColor, Factor::eOneMinusSrc1Color),
+					 factorOf(sourceAlpha, Factor::eOne), factorOf(keptAlpha, Factor::eOneMinusSrc1Alpha));
 	case Blend::add: return state(Factor::eOne, Factor::eOne, Factor::eZero, Factor::eOne);
 	case Blend::under: return state(Factor::eOneMinusDstAlpha, Factor::eOne, Factor::eOne, Factor::eZero);
 	}
 	return {false, Factor::eOne, Factor::eZero, vk::BlendOp::eAdd, Factor::eOne, Factor::eZero, vk::BlendOp::eAdd, all};
 }
 
-/// What can lie behind layers.
-std::vector<PipelineKey> backdrops(const PanelOptics &optics)
-{
-	std::vector<PipelineKey> keys{{.background = Background::pattern}, {.background = Background::unseen}};
-	for (uint32_t camera = 0; camera < optics.cameras.size(); ++camera)
-		keys.push_back({.background = Background::camera, .camera = camera});
-	return keys;
-}
-
 } // namespace
-
-std::vector<PipelineKey> usualKeys(const PanelOptics &optics)
-{
-	std::vector<PipelineKey> keys{{}, {.blend = Blend::clear}};
-	for (PipelineKey key : backdrops(optics)) {
-		keys.push_back(key);
-		// A layer over everything is drawn with what is behind it.
-		if (key.background != Background::pattern) {
-			keys.push_back(key);
-			keys.back().layer = Cover::fully;
-			keys.back().layerEncoded = true;
-		}
-		keys.push_back(key);
-		keys.back().blend = Blend::under;
-		// As a layer: what the cameras do not see is the same picture's fill.
-		for (const Look look : {Look::faded, Look::styled}) {
-			if (key.background == Background::unseen) break;
-			keys.push_back(key);
-			keys.back().blend = Blend::over;
-			keys.back().look = look;
-		}
-	}
-	for (const Cover cover : {Cover::fully, Cover::opaque}) keys.push_back({.layer = cover, .layerEncoded = true});
-	for (const Cover cover : {Cover::fully, Cover::partly}) keys.push_back({.blend = Blend::over, .layer = cover, .layerEncoded = true});
-	keys.push_back({.blend = Blend::over, .layer = Cover::partly, .layerEncoded = true, .keyed = true});
-	// Layers that are not plain are drawn over what is there.
-	for (const Surface surface : {Surface::flat, Surface::cylinder, Surface::sphere, Surface::cube})
-		keys.push_back({.blend = Blend::over, .layer = Cover::partly, .surface = surface});
-	return keys;
-}
 
 class Pipelines::Factory
 {
@@ -192,13 +200,14 @@ public:
 		const vk::PipelineRasterizationStateCreateInfo raster{
 			{}, false, false, vk::PolygonMode::eFill, vk::CullModeFlagBits::eNone, vk::FrontFace::eClockwise, false, 0, 0, 0, 1};
 		const vk::PipelineMultisampleStateCreateInfo samples;
-		const auto attachment = blendState(key.blend);
+		const vk::PipelineDepthStencilStateCreateInfo depth = depthState(key);
+		const auto attachment = blendState(key);
 		const vk::PipelineColorBlendStateCreateInfo blending{{}, false, {}, attachment};
 		const std::array dynamics{vk::DynamicState::eViewport, vk::DynamicState::eScissor};
 		const vk::PipelineDynamicStateCreateInfo dynamic{{}, dynamics};
 		return {gpu_.device,
 				cache_,
-				{{}, stages, &input, &assembly, nullptr, &viewport, &raster, &samples, nullptr, &blending, &dynamic, layout_, renderPass_}};
+				{{}, stages, &input, &assembly, nullptr, &viewport, &raster, &samples, &depth, &blending, &dynamic, layout_, renderPass_}};
 	}
 
 private:
@@ -230,7 +239,8 @@ private:
 };
 
 Pipelines::Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const PanelOptics &optics)
-	: renderPass_(makeRenderPass(gpu, format)),
+	: renderPass_(makeRenderPass(gpu, format, vk::AttachmentLoadOp::eDontCare)),
+	  testingRenderPass_(makeRenderPass(gpu, format, vk::AttachmentLoadOp::eClear)),
 	  eyeSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBuffer, Type::eCombinedImageSampler, Type::eCombinedImageSampler})),
 	  layerSetLayout_(makeSetLayout(gpu, std::array{Type::eCombinedImageSampler})),
 	  surfaceSetLayout_(makeSetLayout(gpu, std::array{Type::eUniformBufferDynamic})),

@@ -1,10 +1,8 @@
 // The renderer's pipelines, made when they are asked for: at once, or by a thread of their own.
 #pragma once
 #include "runtime/base/guarded.h"
-#include "runtime/compositor/panel_inputs.h"
-#include "runtime/compositor/panel_optics.h"
+#include "runtime/compositor/pipeline_key.h"
 #include "runtime/gpu/handles.h"
-#include <compare>
 #include <deque>
 #include <exception>
 #include <map>
@@ -14,34 +12,8 @@
 namespace arift
 {
 
-/// The shader's `background` constant.
-enum class Background : uint32_t { none, pattern, camera, unseen };
-
-/// How the cameras' image is drawn: as what lies behind layers, or as a passthrough layer over what is there.
-enum class Look : uint32_t { backdrop, faded, styled };
-
-struct PipelineKey {
-	Blend blend = Blend::replace;
-	Background background = Background::none;
-	uint32_t camera = 0;  ///< whose lens; 0 without a camera
-	bool encoded = false; ///< the camera's values are sRGB encoded
-	Cover layer = Cover::none;
-	bool layerEncoded = false; ///< the layer's texels are sRGB encoded
-	bool throughLens = true;
-	Look look = Look::backdrop;
-	bool keyed = false;                                    ///< a colour of the layer stands for what is behind it
-	Surface surface = Surface::none;                       ///< what the layer lies on, where surface.frag draws it
-	auto operator<=>(const PipelineKey &) const = default; // NOLINT(modernize-use-nullptr): its zero is no pointer
-};
-
-/// What is drawn day after day: both cameras with linear values, layers of sRGB encoded texels, through the lens.
-std::vector<PipelineKey> usualKeys(const PanelOptics &optics);
-
-/// What draws deep surfaces.
-constexpr PipelineKey deepKey(bool throughLens)
-{
-	return {.blend = Blend::over, .layer = Cover::partly, .throughLens = throughLens, .surface = Surface::deep};
-}
+/// Every Vulkan device that people have draws into it; holds surface.frag's gl_FragDepth.
+constexpr vk::Format depthFormat = vk::Format::eD32Sfloat;
 
 class Pipelines
 {
@@ -50,7 +22,9 @@ public:
 	Pipelines(const gpu::Device::Handles &gpu, vk::Format format, const PanelOptics &optics);
 	~Pipelines();
 	Pipelines(const Pipelines &) = delete;
-	vk::RenderPass renderPass() const { return *renderPass_; }
+	/// Attachments: colour, and a depth image (depthFormat) that is undefined at first, or, where something is tested, infinitely far away:
+	/// 0. Both are compatible.
+	vk::RenderPass renderPass(bool tests = false) const { return tests ? *testingRenderPass_ : *renderPass_; }
 	vk::PipelineLayout layout() const { return *layout_; }
 	/// Set 0: eye block, camera image, angle table. Set 1: layer image. Set 2: surface block, at a dynamic offset. Set 3: depth
 	/// image, of a deep surface alone. Push constants: layer block. surface.frag uses no push constants, panel.frag no set 2.
@@ -77,7 +51,7 @@ private:
 	class Factory;
 	void makeOthers(const std::stop_token &stop);
 
-	vk::raii::RenderPass renderPass_;
+	vk::raii::RenderPass renderPass_, testingRenderPass_;
 	vk::raii::DescriptorSetLayout eyeSetLayout_, layerSetLayout_, surfaceSetLayout_;
 	vk::raii::PipelineLayout layout_;
 	std::unique_ptr<const Factory> factory_;

@@ -88,6 +88,12 @@ DeepProjection deepProjection(const EyeAtLine &eye, bool headLocked, const Proje
 	return {toImage * directionMatrix(eye), toImage * (eye.view.position - drawn.position)};
 }
 
+double distanceFrom(const EyeAtLine &eye, bool headLocked, const QuadView &quad)
+{
+	const Placement place = layerInOrigin(eye, headLocked, quad.quadInFrame);
+	return (glm::conjugate(place.orientation) * (eye.view.position - place.position)).z;
+}
+
 std::optional<glm::dmat3> quadMatrix(const EyeAtLine &eye, bool headLocked, const QuadView &quad)
 {
 	const Placement place = layerInOrigin(eye, headLocked, quad.quadInFrame);

@@ -43,6 +43,8 @@ struct DeepProjection {
 	glm::dvec3 offset{0};
 };
 DeepProjection deepProjection(const EyeAtLine &eye, bool headLocked, const ProjectionView &view);
+/// How far an eye is in front of a quad's plane, metres: 1 / (distance ahead of the eye of what quadMatrix() meets) = w / this.
+double distanceFrom(const EyeAtLine &eye, bool headLocked, const QuadView &quad);
 /// The same for a quad, met where it stands; nothing for an eye behind it.
 std::optional<glm::dmat3> quadMatrix(const EyeAtLine &eye, bool headLocked, const QuadView &quad);
 

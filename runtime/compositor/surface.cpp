@@ -11,26 +11,34 @@ namespace
 
 constexpr double turn = 2 * std::numbers::pi;
 
-/// A blend factor in the shader's terms: constant + byAlpha * the layer's alpha. Of the alpha below, which no shader sees, there is none.
+/// A blend factor in the shader's terms: constant + byAlpha * the layer's alpha. The alpha below, which no shader sees, comes later.
 struct Factor {
 	float constant = 0, byAlpha = 0;
 };
 Factor factorOf(XrBlendFactorFB factor)
 {
 	switch (factor) {
-	case XR_BLEND_FACTOR_ONE_FB: return {1, 0};
+	case XR_BLEND_FACTOR_ONE_FB:
+	case XR_BLEND_FACTOR_DST_ALPHA_FB:
+	case XR_BLEND_FACTOR_ONE_MINUS_DST_ALPHA_FB: return {1, 0};
 	case XR_BLEND_FACTOR_SRC_ALPHA_FB: return {0, 1};
 	case XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB: return {1, -1};
 	default: return {0, 0};
 	}
 }
 
+ByAlphaBelow byAlphaBelow(XrBlendFactorFB factor)
+{
+	if (factor == XR_BLEND_FACTOR_DST_ALPHA_FB) return ByAlphaBelow::alpha;
+	return factor == XR_BLEND_FACTOR_ONE_MINUS_DST_ALPHA_FB ? ByAlphaBelow::rest : ByAlphaBelow::no;
+}
+
 BlendFactors factorsOf(const PanelLayer &layer)
 {
 	if (layer.factors) return *layer.factors;
 	const bool straight = layer.flags & XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT;
-	return {straight && !isOpaque(layer) ? XR_BLEND_FACTOR_SRC_ALPHA_FB : XR_BLEND_FACTOR_ONE_FB, XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB,
-			XR_BLEND_FACTOR_ONE_FB, XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB};
+	return {straight && hasAlpha(layer) && !layer.key ? XR_BLEND_FACTOR_SRC_ALPHA_FB : XR_BLEND_FACTOR_ONE_FB,
+			XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB, XR_BLEND_FACTOR_ONE_FB, XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB};
 }
 
 bool isTransformed(const PanelLayer &layer)
@@ -149,6 +157,9 @@ constexpr double leastMove = 2e-4;
 constexpr double texelsPerStep = 2;
 constexpr double mostSteps = 16;
 
+/// More than any 1 / distance.
+constexpr float endless = 1e30f;
+
 /// 1 / distance of the nearest that a view's depth can say.
 double largestInverse(const ViewDepth &depth)
 {
@@ -203,9 +214,22 @@ void describeDepth(shaders::SurfaceBlock &block, const ProjectionView &view, con
 	const glm::vec2 scale = vector(depthExtent.width, depthExtent.height) / vector(extent.width, extent.height);
 	const glm::vec2 first = vector(depthCorner.x, depthCorner.y);
 	const double inverse = largestInverse(*view.depth);
+	const float nearest = view.depth->testedFrom, farthest = view.depth->testedTo;
+	block.placing = {farthest > 0 ? 1 / farthest : 0, nearest > 0 ? 1 / nearest : endless, 0, 0};
 	block.depthTexel = {scale, first - (vector(corner.x, corner.y) - 0.5f) * scale};
 	block.depthBounds = {first, first + vector(depthExtent.width, depthExtent.height) - 1.0f};
 	block.depthSearch = {view.depth->inverseBias, view.depth->inverseScale, float(inverse), float(searchSteps(rays, extent, inverse))};
+}
+
+/// An opacity is a scale of the alpha that the key leaves.
+void describeKey(shaders::SurfaceBlock &block, const KeyedOut &keyed)
+{
+	const auto &[red, green, blue] = keyed.key.colour;
+	block.key = {red, green, blue, keyed.key.tolerance};
+	block.size.w = keyed.key.softness;
+	block.colorScale.a *= keyed.opacity;
+	block.colorBias.a *= keyed.opacity;
+	if (keyed.opacity < 1) block.texels.z = 1;
 }
 
 /// uv (x w, y w, w) to texels.
@@ -245,16 +269,29 @@ Surface surfaceOf(const PanelLayer &layer, size_t eye)
 bool isPlain(const PanelLayer &layer)
 {
 	const bool flat = !layer.curved[0] && !layer.curved[1] && !layer.cube[0] && !layer.cube[1];
-	return flat && (layer.key || (!layer.factors && !isTransformed(layer)));
+	return flat && !(layer.key && hasAlpha(layer)) && !layer.factors && !isTransformed(layer);
 }
 
-bool isShownWhereEmpty(const PanelLayer &layer) { return layer.factors || isOpaque(layer) || layer.colorBias.a != 0; }
+bool isShownWhereEmpty(const PanelLayer &layer)
+{
+	return layer.factors || !hasAlpha(layer) || layer.colorBias.a != 0 || (layer.depthTest && layer.depthTest->writes);
+}
+
+AlphaBelowFactors alphaBelowFactors(const PanelLayer &layer)
+{
+	if (!layer.factors) return {};
+	const auto &[sourceColor, keptColor, sourceAlpha, keptAlpha] = *layer.factors;
+	return {byAlphaBelow(sourceColor), byAlphaBelow(keptColor), byAlphaBelow(sourceAlpha), byAlphaBelow(keptAlpha)};
+}
+
+bool readsAlphaBelow(const PanelLayer &layer) { return alphaBelowFactors(layer) != AlphaBelowFactors{}; }
 
 /// Over a picture of colour C and alpha A in front of the world W, C + W (1 - A) becomes k of itself and something added where both C and
 /// 1 - A become k of themselves: where what is kept of the alpha is k, too, and what is added to it 1 - k.
 bool needsAlphaBelow(const PanelLayer &layer)
 {
 	if (!layer.factors) return false;
+	if (readsAlphaBelow(layer)) return true;
 	const auto &[sourceColor, keptColor, sourceAlpha, keptAlpha] = *layer.factors;
 	(void)sourceColor;
 	const bool usual = keptColor == XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB && sourceAlpha == XR_BLEND_FACTOR_ONE_FB;
@@ -265,7 +302,8 @@ bool needsAlphaBelow(const PanelLayer &layer)
 bool seesDepth(const PanelLayer &layer, size_t eye, const EyesByBand &eyes)
 {
 	const auto &view = layer.projection[eye];
-	if (!view || !view->depth || layer.key) return false;
+	if (!view || !view->depth) return false;
+	if (layer.depthTest) return true;
 	return std::ranges::any_of(eyes, [&](const auto &both) {
 		const Placement drawn = layerInOrigin(both[eye], layer.headLocked, view->viewInFrame);
 		return glm::distance(both[eye].view.position, drawn.position) > leastMove;
@@ -281,6 +319,9 @@ std::optional<RaysByBand> surfaceRays(const PanelLayer &layer, Surface surface, 
 		const auto matrices = layerMatrices(layer, eye, eyes);
 		if (!matrices) return std::nullopt;
 		rays.matrix = *matrices;
+		if (const auto &quad = layer.quad[eye])
+			for (size_t band = 0; band <= bandCount; ++band)
+				rays.origin[band].x = 1 / std::max(distanceFrom(eyes[band][eye], layer.headLocked, *quad), 1e-6);
 		return rays;
 	}
 	case Surface::deep:
@@ -341,8 +382,10 @@ shaders::SurfaceBlock surfaceBlock(const PanelLayer &layer, Surface surface, siz
 	block.colorBias = vectorOf(layer.colorBias);
 	block.source = {sourceColor.constant, sourceColor.byAlpha, sourceAlpha.constant, sourceAlpha.byAlpha};
 	block.kept = {keptColor.constant, keptColor.byAlpha, keptAlpha.constant, keptAlpha.byAlpha};
-	block.texels = {encoded, isOpaque(layer) && !layer.factors, isTransformed(layer), straight};
-	block.size = {flat.mode.x, flat.mode.y, 0, 0};
+	block.texels = {encoded, !hasAlpha(layer), isTransformed(layer), straight};
+	const float radius = layer.curved[eye] ? layer.curved[eye]->radius : 0;
+	block.size = {flat.mode.x, flat.mode.y, radius > 0 ? 1 / radius : 0, 0};
+	if (layer.key) describeKey(block, *layer.key);
 	return block;
 }
 

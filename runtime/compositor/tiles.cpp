@@ -196,10 +196,11 @@ FrameVector<TileDraw> planDraws(const TileGrid &grid, XrEnvironmentBlendMode ble
 			plan.add(blend, under, layer, layers[size_t(layer)][index], band, rect);
 		};
 		const auto needs = [&](int layer) { return !needsAlpha.empty() && needsAlpha[size_t(layer)]; };
-		if (environment && !additive && std::ranges::any_of(here, needs)) {
+		if (!kept && std::ranges::any_of(here, needs)) {
 			plan.add(Blend::clear, Behind::nothing, -1, Cover::none, band, rect);
 			for (const int layer : here) addLayer(Blend::over, Behind::nothing, layer);
-			plan.add(Blend::under, behind, -1, Cover::none, band, rect);
+			if (additive) plan.add(Blend::add, behind, -1, Cover::none, band, rect);
+			plan.add(Blend::under, environment && !additive ? behind : Behind::nothing, -1, Cover::none, band, rect);
 			return;
 		}
 		const Behind under = backdrop && !later ? behind : Behind::nothing;

@@ -38,6 +38,13 @@ VkImageLayout boundaryLayout(VkFormat format);
 bool isDepth(VkFormat format);
 /// Six array layers are one.
 inline bool isCube(const ImageSpec &spec) { return spec.createFlags & VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT; }
+/// What can be looked up in an image: colours at texels, colours by direction, depths.
+enum class ImageKind { flat, cube, depth };
+inline ImageKind kindOf(const ImageSpec &spec)
+{
+	if (isDepth(VkFormat(spec.format))) return ImageKind::depth;
+	return isCube(spec) ? ImageKind::cube : ImageKind::flat;
+}
 /// As XrSwapchainCreateInfo::arraySize: cubes, or array layers.
 inline uint32_t arraySize(const ImageSpec &spec) { return isCube(spec) ? spec.arrayLayers / 6 : spec.arrayLayers; }
 /// The same bits without sRGB encoding: the format in which the compositor samples an image. It decodes by itself, in the shader, what it

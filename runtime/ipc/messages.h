@@ -12,7 +12,7 @@ namespace arift::ipc
 {
 
 constexpr uint32_t magic = 0x54465241; // "ARFT"
-constexpr uint32_t protocol = 7;       // raised with every change of this file, of pages.h or of PoseRing
+constexpr uint32_t protocol = 8;       // raised with every change of this file, of pages.h or of PoseRing
 /// Real time in which the service has opened its devices and answers Hello and CreateSession: a second or two, much more on a machine that
 /// is busy otherwise. Clients wait a little longer than this, so that they hear its reason.
 constexpr XrDuration openingLimit = 60 * second;
@@ -232,6 +232,8 @@ enum class LayerFrame : uint32_t { origin /**< fixed in the world */, head /**< 
 struct ViewDepth {
 	SubImage image; ///< its swapchain is 0: there is no depth
 	float inverseBias = 0, inverseScale = 0;
+	float testedFrom = 0,
+		  testedTo = 0; ///< metres: outside, the layer's depth test lets everything through; testedTo 0: there is no such end
 };
 struct LayerView {
 	XrPosef pose = identityPose; ///< of the view in the layer's frame
@@ -252,10 +254,9 @@ struct BlendFactors {
 };
 /// XR_FB_composition_layer_depth_test, XR_VARJO_composition_layer_depth_test: against what was nearest so far.
 struct DepthTest {
-	uint32_t given = 0;              ///< 0: the layer is drawn over what is below
-	uint32_t compareOp = 0;          ///< XrCompareOpFB
-	uint32_t writes = 0;             ///< 1: what passes is the nearest from then on
-	float nearest = 0, farthest = 0; ///< metres: outside, everything passes; farthest 0: there is no such end
+	uint32_t given = 0;     ///< 0: the layer is drawn over what is below
+	uint32_t compareOp = 0; ///< XrCompareOpFB
+	uint32_t writes = 0;    ///< 1: what passes is the nearest from then on
 };
 struct Layer {
 	LayerType type = LayerType::projection;

@@ -150,21 +150,24 @@ std::optional<XrPosef> FrameSubmission::place(ipc::Layer &layer, XrSpace handle,
 void FrameSubmission::addProjection(const XrCompositionLayerProjection &projection)
 {
 	ipc::Layer layer = layerWith(projection.next);
-	if (session_.instance.has(Extension::VARJO_composition_layer_depth_test)) applyDepthTestRange(layer, projection.next);
 	layer.type = ipc::LayerType::projection;
 	layer.flags = requireFlags(projection.layerFlags);
 	if (projection.viewCount != 2 || !projection.views)
 		throw Error(XR_ERROR_VALIDATION_FAILURE, "a projection layer has {} views instead of 2", projection.viewCount);
-	bool isPlaced = true;
+	bool isPlaced = true, haveRange = session_.instance.has(Extension::VARJO_composition_layer_depth_test);
 	for (size_t eye = 0; eye < 2; ++eye) {
 		const XrCompositionLayerProjectionView &view = projection.views[eye];
 		requireType(&view);
 		requireFov(view.fov);
 		const auto pose = place(layer, projection.space, view.pose, "a projection layer's view");
 		isPlaced = isPlaced && pose;
-		layer.views[eye] = {pose.value_or(identityPose), view.fov, subImage(view.subImage, ImageKind::flat)};
+		layer.views[eye] = {pose.value_or(identityPose), view.fov, subImage(view.subImage, gpu::ImageKind::flat)};
 		addDepth(layer.views[eye], view.next);
+		haveRange = haveRange && setDepthTestRange(layer.views[eye], view.next);
 	}
+	if (haveRange && !layer.depthTest.given) layer.depthTest = depthTestInRange;
+	if (!haveRange)
+		for (ipc::LayerView &view : layer.views) view.depth.testedFrom = view.depth.testedTo = 0;
 	// What has no depth is not tested for it.
 	if (layer.views[0].depth.image.swapchain == 0 || layer.views[1].depth.image.swapchain == 0) layer.depthTest = {};
 	if (isPlaced) submission.layers[submission.layerCount++] = layer;
@@ -176,7 +179,7 @@ void FrameSubmission::addDepth(ipc::LayerView &view, const void *next)
 	const auto *info = findInChain<XrCompositionLayerDepthInfoKHR>(next);
 	if (!info) return;
 	ipc::ViewDepth depth = depthOf(*info);
-	depth.image = subImage(info->subImage, ImageKind::depth);
+	depth.image = subImage(info->subImage, gpu::ImageKind::depth);
 	if (session_.sharing().how == ipc::Sharing::copies && !session_.graphics()->copiesDepth()) return;
 	if (std::abs(depth.inverseBias) < farthest && std::abs(depth.inverseScale) < farthest) view.depth = depth;
 }
@@ -218,7 +221,6 @@ void FrameSubmission::addCube(const XrCompositionLayerCubeKHR &cube)
 {
 	ipc::Layer layer = layerWith(cube.next);
 	layer.type = ipc::LayerType::cube;
-	layer.depthTest = {}; // it is infinitely far away
 	const Swapchain &swapchain = handles.at<Swapchain>(cube.swapchain);
 	addPlaced(layer,
 			  {"a cube layer",
@@ -227,7 +229,7 @@ void FrameSubmission::addCube(const XrCompositionLayerCubeKHR &cube)
 			   cube.space,
 			   {cube.orientation, {0, 0, 0}},
 			   wholeFaceOf(cube, swapchain),
-			   ImageKind::cube},
+			   gpu::ImageKind::cube},
 			  true);
 }
 
@@ -241,7 +243,7 @@ void FrameSubmission::addPlaced(ipc::Layer layer, const Place &given, bool hasEx
 	if (pose && hasExtent) submission.layers[submission.layerCount++] = layer;
 }
 
-ipc::SubImage FrameSubmission::subImage(const XrSwapchainSubImage &given, ImageKind kind)
+ipc::SubImage FrameSubmission::subImage(const XrSwapchainSubImage &given, gpu::ImageKind kind)
 {
 	Swapchain &swapchain = handles.at<Swapchain>(given.swapchain);
 	if (&swapchain.session != &session_) throw Error(XR_ERROR_VALIDATION_FAILURE, "a layer's swapchain belongs to another session");
@@ -254,10 +256,10 @@ ipc::SubImage FrameSubmission::subImage(const XrSwapchainSubImage &given, ImageK
 					extent.height, offset.x, offset.y, spec.width, spec.height);
 	if (given.imageArrayIndex >= gpu::arraySize(spec))
 		throw Error(XR_ERROR_VALIDATION_FAILURE, "imageArrayIndex {} is not below {}", given.imageArrayIndex, gpu::arraySize(spec));
-	if (swapchain.isCube() != (kind == ImageKind::cube))
+	if (swapchain.isCube() != (kind == gpu::ImageKind::cube))
 		throw Error(XR_ERROR_LAYER_INVALID, "a cube is shown by cube layers, which show nothing else: the swapchain has {} array layers",
 					spec.arrayLayers);
-	if (gpu::isDepth(VkFormat(spec.format)) != (kind == ImageKind::depth))
+	if (gpu::isDepth(VkFormat(spec.format)) != (kind == gpu::ImageKind::depth))
 		throw Error(XR_ERROR_LAYER_INVALID, "depth is no colour and colour no depth: the swapchain has VkFormat {}", spec.format);
 	const auto newest = swapchain.newestImage();
 	if (!newest) throw Error(XR_ERROR_LAYER_INVALID, "a layer shows a swapchain of which no image was released");

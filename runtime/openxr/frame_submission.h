@@ -24,8 +24,6 @@ private:
 		Swapchain *swapchain;
 		uint32_t image;
 	};
-	/// What a layer shows; an image of the swapchain must be of that kind.
-	enum class ImageKind { flat, cube, depth };
 	/// What layers that stand somewhere have in common.
 	struct Place {
 		const char *what; ///< for messages
@@ -34,7 +32,7 @@ private:
 		XrSpace space;
 		XrPosef pose;
 		XrSwapchainSubImage image;
-		ImageKind kind = ImageKind::flat;
+		gpu::ImageKind kind = gpu::ImageKind::flat;
 	};
 	void addLayer(const XrCompositionLayerBaseHeader *header);
 	/// What extensions say of layers of every kind.
@@ -49,7 +47,8 @@ private:
 	void addDepth(ipc::LayerView &view, const void *next);
 	/// Frame and pose of a layer in the message; nothing when its space has no place now and the layer is not shown.
 	std::optional<XrPosef> place(ipc::Layer &layer, XrSpace space, const XrPosef &pose, const char *what);
-	ipc::SubImage subImage(const XrSwapchainSubImage &image, ImageKind kind);
+	/// What a layer shows: an image of that kind.
+	ipc::SubImage subImage(const XrSwapchainSubImage &image, gpu::ImageKind kind);
 
 	Session &session_;
 	Locator locator_;

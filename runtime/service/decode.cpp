@@ -97,7 +97,7 @@ template <typename M> M checked(const ipc::Received &received)
 	return message;
 }
 
-void checkImage(const ipc::SubImage &image, SwapchainShape::Kind kind, const FindSwapchain &find)
+void checkImage(const ipc::SubImage &image, gpu::ImageKind kind, const FindSwapchain &find)
 {
 	const auto shape = find(image.swapchain);
 	require(shape.has_value(), "layer names an unknown swapchain");
@@ -133,11 +133,13 @@ void checkView(const ipc::LayerView &view, const FindSwapchain &find)
 {
 	checkPose(view.pose);
 	checkFov(view.fov);
-	checkImage(view.image, SwapchainShape::Kind::flat, find);
+	checkImage(view.image, gpu::ImageKind::flat, find);
 	const ipc::ViewDepth &depth = view.depth;
 	if (depth.image.swapchain == 0) return;
-	checkImage(depth.image, SwapchainShape::Kind::depth, find);
+	checkImage(depth.image, gpu::ImageKind::depth, find);
 	require(isWithin(depth.inverseBias, farthest) && isWithin(depth.inverseScale, farthest), "layer depth out of range");
+	require(depth.testedFrom >= 0 && depth.testedTo >= 0 && isWithin(depth.testedFrom, farthest) && isWithin(depth.testedTo, farthest),
+			"layer depth test out of range");
 }
 
 void checkCurved(const ipc::CurvedSurface &surface)
@@ -158,8 +160,6 @@ void checkBlending(const ipc::Layer &layer)
 	const ipc::DepthTest &test = layer.depthTest;
 	require(blend.given <= 1 && test.given <= 1 && test.writes <= 1, "layer with what is neither yes nor no");
 	require(test.compareOp <= 7, "layer with an unknown depth test");
-	require(test.nearest >= 0 && test.farthest >= 0 && isWithin(test.nearest, farthest) && isWithin(test.farthest, farthest),
-			"layer depth test out of range");
 }
 
 void checkLayer(const ipc::Layer &layer, const FindSwapchain &find)
@@ -176,7 +176,7 @@ void checkLayer(const ipc::Layer &layer, const FindSwapchain &find)
 	}
 	checkPose(layer.views[0].pose);
 	const bool cube = layer.type == ipc::LayerType::cube;
-	checkImage(layer.views[0].image, cube ? SwapchainShape::Kind::cube : SwapchainShape::Kind::flat, find);
+	checkImage(layer.views[0].image, cube ? gpu::ImageKind::cube : gpu::ImageKind::flat, find);
 	if (layer.type != ipc::LayerType::quad) return checkCurved(layer.curved);
 	for (const float extent : {layer.width, layer.height})
 		require(std::isfinite(extent) && extent >= 0 && extent < farthest, "quad extent out of range");

@@ -31,7 +31,7 @@ struct Quota {
 /// What a submission's references are checked against: nothing where the session has no such swapchain.
 struct SwapchainShape {
 	uint32_t width = 0, height = 0, arraySize = 1, imageCount = 0; ///< arraySize: cubes, or array layers
-	enum class Kind { flat, cube, depth } kind = Kind::flat;
+	gpu::ImageKind kind = gpu::ImageKind::flat;
 };
 using FindSwapchain = std::function<std::optional<SwapchainShape>(uint32_t swapchain)>;
 

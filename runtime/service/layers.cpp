@@ -23,7 +23,7 @@ XrExtent2Df sizeOf(const ipc::Layer &layer, bool rowsGoUp) { return {layer.width
 std::optional<ViewDepth> depthOf(const ipc::ViewDepth &depth)
 {
 	if (depth.image.swapchain == 0) return std::nullopt;
-	return ViewDepth{textureOf(depth.image), depth.inverseBias, depth.inverseScale};
+	return ViewDepth{textureOf(depth.image), depth.inverseBias, depth.inverseScale, depth.testedFrom, depth.testedTo};
 }
 
 CurvedView curvedOf(const ipc::Layer &layer, bool rowsGoUp)
@@ -68,6 +68,9 @@ PanelLayer layerOf(const ipc::Layer &layer, bool rowsGoUp)
 	if (const ipc::BlendFactors &blend = layer.blend; blend.given)
 		result.factors = {XrBlendFactorFB(blend.sourceColor), XrBlendFactorFB(blend.destinationColor), XrBlendFactorFB(blend.sourceAlpha),
 						  XrBlendFactorFB(blend.destinationAlpha)};
+	// XrCompareOpFB counts as VkCompareOp does.
+	if (const ipc::DepthTest &test = layer.depthTest; test.given)
+		result.depthTest = DepthTest{VkCompareOp(test.compareOp), test.writes != 0};
 	for (uint32_t eye = 0; eye < 2; ++eye)
 		if (layer.eyes >> eye & 1) addView(result, eye, layer, rowsGoUp);
 	return result;

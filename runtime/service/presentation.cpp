@@ -42,6 +42,13 @@ void fade(PanelLayer &layer, float opacity)
 	layer.colorBias.a = opacity;
 }
 
+/// Black was below the lowest layer: whatever alpha its premultiplied image has, nobody could see it, and applications leave there what
+/// they like.
+void ignoreAlpha(PanelLayer &lowest)
+{
+	if (!(lowest.flags & XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT)) lowest.flags &= ~sourceAlpha;
+}
+
 } // namespace
 
 void addPassthrough(FrameContent &content, const Presentation &presentation, uint32_t number)
@@ -64,9 +71,11 @@ void addPassthrough(FrameContent &content, const Presentation &presentation, uin
 void force(FrameContent &content, const ForcedPassthrough &forced)
 {
 	if (forced.mode == ipc::Forced::off) return;
+	const bool overBlack = content.blendMode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
 	content.blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
 	for (PanelLayer &layer : content.layers) {
 		if (layer.passthrough) continue;
+		if (forced.mode == ipc::Forced::chroma && overBlack && &layer == &content.layers.front()) ignoreAlpha(layer);
 		if (forced.mode == ipc::Forced::alpha) layer.flags |= sourceAlpha;
 		if (forced.mode == ipc::Forced::chroma)
 			layer.key = {forced.key, forced.opacity};

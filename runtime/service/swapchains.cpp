@@ -36,17 +36,11 @@ void checkSpec(gpu::Device &device, const gpu::ImageSpec &spec, ipc::Sharing sha
 		throw Refused(XR_ERROR_VALIDATION_FAILURE, "a cube map needs six square faces");
 }
 
-SwapchainShape::Kind kindOf(const gpu::ImageSpec &spec)
-{
-	if (gpu::isCube(spec)) return SwapchainShape::Kind::cube;
-	return gpu::isDepth(VkFormat(spec.format)) ? SwapchainShape::Kind::depth : SwapchainShape::Kind::flat;
-}
-
 } // namespace
 
 SwapchainShape Swapchains::Swapchain::shape() const
 {
-	return {about.spec.width, about.spec.height, gpu::arraySize(about.spec), about.imageCount, kindOf(about.spec)};
+	return {about.spec.width, about.spec.height, gpu::arraySize(about.spec), about.imageCount, gpu::kindOf(about.spec)};
 }
 
 Swapchains::~Swapchains() { destroyAll(); }

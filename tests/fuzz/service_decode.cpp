@@ -10,7 +10,7 @@ using namespace arift;
 namespace
 {
 
-using Kind = SwapchainShape::Kind;
+using Kind = gpu::ImageKind;
 
 std::optional<SwapchainShape> find(uint32_t swapchain)
 {
@@ -48,13 +48,13 @@ void checkLayer(const ipc::Layer &layer)
 		fuzz::require(isValidPose(view.pose), "poses are valid");
 		if (layer.type != Type::projection || view.depth.image.swapchain == 0) continue;
 		checkImage(view.depth.image, Kind::depth);
-		checkFinite({view.depth.inverseBias, view.depth.inverseScale});
+		checkFinite({view.depth.inverseBias, view.depth.inverseScale, view.depth.testedFrom, view.depth.testedTo});
 	}
 	if (layer.type == Type::quad) checkFinite({layer.width, layer.height});
 	if (layer.type == Type::cylinder || layer.type == Type::equirect)
 		checkFinite({layer.curved.radius, layer.curved.uvAhead.x, layer.curved.uvPerUnit.y});
 	if (views == 0) return;
-	checkFinite({layer.colorScale.r, layer.colorBias.a, layer.depthTest.nearest, layer.depthTest.farthest});
+	checkFinite({layer.colorScale.r, layer.colorBias.a});
 	fuzz::require(layer.blend.sourceColor <= 5 && layer.blend.destinationAlpha <= 5 && layer.depthTest.compareOp <= 7,
 				  "enums are in range");
 }

@@ -210,10 +210,23 @@ TEST_F(Frames, OfLayersThatAreAddedToTheWorldAllocateNothing)
 	countAllocations("layers that are added to the world", XR_ENVIRONMENT_BLEND_MODE_ADDITIVE);
 }
 
+TEST_F(Frames, WithDepthTestsAllocateNothing)
+{
+	addViews();
+	addQuadAt(0).depthTest = DepthTest{VK_COMPARE_OP_LESS, true};
+	addCurved(Surface::sphere);
+	layers.back().depthTest = DepthTest{VK_COMPARE_OP_LESS_OR_EQUAL, true};
+	addQuadAt(0.3f).factors = {XR_BLEND_FACTOR_DST_ALPHA_FB, XR_BLEND_FACTOR_ZERO_FB, XR_BLEND_FACTOR_ZERO_FB,
+							   XR_BLEND_FACTOR_ONE_MINUS_DST_ALPHA_FB};
+	countAllocations("layers that are tested for their depth");
+}
+
 TEST_F(Frames, OfKeyedLayersAllocateNothing)
 {
 	addViews().key = KeyedOut{};
 	addQuadAt(0).key = KeyedOut{.key = {}, .opacity = 0.5f};
+	addCurved(Surface::cylinder);
+	layers.back().key = KeyedOut{};
 	countAllocations("keyed layers");
 }
 

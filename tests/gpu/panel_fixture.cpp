@@ -60,6 +60,12 @@ void upload(gpu::Device &device, const gpu::SharedImage &shared, const std::vect
 
 } // namespace
 
+double linearOf(double code)
+{
+	const double v = code / 255;
+	return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
 double encoded(double linear)
 {
 	const double v = std::clamp(linear, 0.0, 1.0);
@@ -113,6 +119,13 @@ CameraFrame PanelTest::frame(PixelFormat format, const std::function<uint8_t(uin
 	for (uint32_t y = 0; y < cameraHeight; ++y)
 		for (uint32_t x = 0; x < frame.stride - padding; ++x) frame.buffer->bytes()[size_t(y) * frame.stride + x] = std::byte(value(x, y));
 	return frame;
+}
+
+void PanelTest::seeColour()
+{
+	const auto value = [](uint32_t x, uint32_t y) -> uint8_t { return x % 2 == y % 2 ? (x % 2 ? 50 : 200) : 100; };
+	for (uint32_t e = 0; e < 2; ++e)
+		inputs.cameras[e] = CameraView{.frame = frame(PixelFormat::bayerRggb8, value), .cameraInOrigin = rig.eyeInHead[e], .lens = e};
 }
 
 void PanelTest::seeGrey(uint8_t value)

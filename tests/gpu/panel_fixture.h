@@ -20,7 +20,8 @@ inline constexpr XrCompositionLayerFlags unpremultiplied = sourceAlpha | XR_COMP
 inline constexpr auto opaque = XR_ENVIRONMENT_BLEND_MODE_OPAQUE, additive = XR_ENVIRONMENT_BLEND_MODE_ADDITIVE,
 					  alphaBlend = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
 inline constexpr uint8_t cameraValue = 51;
-inline constexpr double camera = 0.2; ///< linear
+inline constexpr double camera = 0.2;                                       ///< linear
+inline constexpr Linear cameraColour{200 / 255.0, 100 / 255.0, 50 / 255.0}; ///< linear, of seeColour()
 inline constexpr std::array<uint8_t, 4> colour{102, 51, 153, 153};
 inline constexpr Linear c{0.4, 0.2, 0.6};
 inline constexpr double a = 0.6;
@@ -28,6 +29,8 @@ inline constexpr double a = 0.6;
 
 /// What a linear value is in an sRGB texel, 0..255.
 double encoded(double linear);
+/// The other way round. IEC 61966-2-1.
+double linearOf(double code);
 
 /// DK1 lens, eyes 64 mm apart, two cameras of 320x240 at the eyes that see 76 x 62 degrees.
 Rig plainRig();
@@ -64,6 +67,8 @@ protected:
 	CameraFrame frame(PixelFormat format, const std::function<uint8_t(uint32_t, uint32_t)> &value, bool ours = true, uint32_t padding = 0);
 	/// Both eyes see a uniform grey image of this raw value.
 	void seeGrey(uint8_t value);
+	/// Both eyes see by_hand::cameraColour everywhere.
+	void seeColour();
 	/// A layer of one colour (linear, RGBA bytes) that fills both eyes, at the pose it is shown for.
 	PanelLayer &addUniformLayer(std::array<uint8_t, 4> colour, XrCompositionLayerFlags flags);
 	/// A quad with one image for both eyes.

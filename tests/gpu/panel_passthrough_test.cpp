@@ -1,4 +1,4 @@
-// The cameras' image as a layer with a style, and layers of which a colour stands for the world, by colours computed a second time here.
+// The cameras' image as a layer with a style, by colours computed a second time here.
 #include "tests/gpu/panel_fixture.h"
 #include <cmath>
 #include <fmt/core.h>
@@ -9,13 +9,7 @@ namespace
 {
 
 using by_hand::a, by_hand::c, by_hand::colour, by_hand::sourceAlpha;
-constexpr Linear camera{200 / 255.0, 100 / 255.0, 50 / 255.0};
-
-double linearOf(double code)
-{
-	const double v = code / 255;
-	return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
+constexpr Linear camera = by_hand::cameraColour;
 
 Linear over(const Linear &light, const Linear &kept, double below)
 {
@@ -49,13 +43,6 @@ protected:
 	{
 		inputs.blendMode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
 		seeColour();
-	}
-	/// Both eyes see the camera's colour everywhere.
-	void seeColour()
-	{
-		const auto value = [](uint32_t x, uint32_t y) -> uint8_t { return x % 2 == y % 2 ? (x % 2 ? 50 : 200) : 100; };
-		for (uint32_t e = 0; e < 2; ++e)
-			inputs.cameras[e] = CameraView{.frame = frame(PixelFormat::bayerRggb8, value), .cameraInOrigin = rig.eyeInHead[e], .lens = e};
 	}
 	PassthroughStyle &addPassthrough(float opacity = 1)
 	{
@@ -188,108 +175,6 @@ TEST_F(PanelPassthroughTest, EdgesAreDrawnWhereTheImageHasThem)
 	const auto onEdge = at(where, centreY);
 	EXPECT_NEAR(onEdge[1], encoded(0.5 + linearOf(onEdge[0])), 3) << "half green over half of the grey";
 	expectNear(at(where + 20, centreY), {150 / 255.0, 150 / 255.0, 150 / 255.0}, 2);
-}
-
-/// How much of an encoded colour a key leaves: ChromaKey, computed again.
-double keptOf(const std::array<double, 3> &code, const ChromaKey &key)
-{
-	double d[3], luma = 0;
-	const double weights[3] = {0.2126, 0.7152, 0.0722};
-	for (int i = 0; i < 3; ++i) {
-		d[i] = code[size_t(i)] / 255 - double(key.colour[size_t(i)]);
-		luma += weights[i] * d[i];
-	}
-	const double distance = std::hypot(luma / 4, (d[2] - luma) / 1.8556, (d[0] - luma) / 1.5748);
-	const double t = std::clamp((distance - double(key.tolerance)) / double(key.softness), 0.0, 1.0);
-	return t * t * (3 - 2 * t);
-}
-
-class PanelKeyTest : public PanelPassthroughTest
-{
-protected:
-	PanelKeyTest() { inputs.blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND; }
-	/// One encoded colour over all of both views, keyed out.
-	void show(const std::array<uint8_t, 4> &code, const KeyedOut &keyed, VkFormat format = VK_FORMAT_R8G8B8A8_SRGB)
-	{
-		inputs.layers.clear();
-		const uint64_t key = addImage(
-			16, 16, [&](auto...) { return code; }, format);
-		PanelLayer &layer = inputs.layers.emplace_back();
-		const float wide = 1.2f;
-		for (size_t e = 0; e < 2; ++e)
-			layer.projection[e] = ProjectionView{rig.eyeInHead[e], {-wide, wide, wide, -wide}, {key, 0, {{0, 0}, {16, 16}}}};
-		layer.key = keyed;
-		render();
-	}
-	static Linear expected(const std::array<uint8_t, 4> &code, const KeyedOut &keyed)
-	{
-		const double kept = keptOf({double(code[0]), double(code[1]), double(code[2])}, keyed.key), opacity = double(keyed.opacity);
-		Linear light{};
-		for (size_t i = 0; i < 3; ++i) {
-			const double own = std::clamp(linearOf(code[i]) - (1 - kept) * linearOf(255 * double(keyed.key.colour[i])), 0.0, kept);
-			light[i] = own * opacity + camera[i] * (1 - kept * opacity);
-		}
-		return light;
-	}
-};
-
-TEST_F(PanelKeyTest, TheKeysColourIsTheWorldAndOthersStay)
-{
-	const KeyedOut green{{{0, 1, 0}, 0.15f, 0.1f}, 1};
-	show({0, 255, 0, 255}, green);
-	expectNear(at(centreX, centreY), camera, 2);
-	show({20, 235, 15, 0}, green); // a shade of it; its alpha says nothing
-	expectNear(at(centreX, centreY), camera, 1.5);
-	for (const std::array<uint8_t, 4> &other :
-		 {std::array<uint8_t, 4>{255, 0, 0, 255}, {255, 255, 255, 0}, {90, 90, 90, 255}, {0, 0, 0, 0}}) {
-		show(other, green);
-		expectNear(at(centreX, centreY), {linearOf(other[0]), linearOf(other[1]), linearOf(other[2])}, 1.5);
-	}
-	const KeyedOut black{{{0, 0, 0}, 0.05f, 0.05f}, 1};
-	show({0, 0, 0, 255}, black);
-	expectNear(at(centreX, centreY), camera, 1.5);
-	show({128, 128, 128, 255}, black);
-	expectNear(at(centreX, centreY), {linearOf(128), linearOf(128), linearOf(128)}, 1.5);
-}
-
-TEST_F(PanelKeyTest, BetweenBothItIsSoftAndLosesTheKeysLight)
-{
-	const KeyedOut keyed{{{0, 1, 0}, 0.1f, 0.4f}, 1};
-	double worst = 0;
-	int partly = 0;
-	for (int step = 0; step <= 10; ++step) {
-		const auto red = uint8_t(25 * step);
-		const std::array<uint8_t, 4> code{red, 255, red, 255};
-		show(code, keyed);
-		const Linear wanted = expected(code, keyed);
-		const double kept = keptOf({double(red), 255, double(red)}, keyed.key);
-		partly += kept > 0.05 && kept < 0.95;
-		expectNear(at(centreX, centreY), wanted, 2);
-		for (size_t channel = 0; channel < 3; ++channel)
-			worst = std::max(worst, std::abs(at(centreX, centreY)[channel] - encoded(wanted[channel])));
-	}
-	EXPECT_GE(partly, 3) << "colours inside the soft edge";
-	fmt::print("[ FIGURE   ] chroma key: at most {:.2f} of 255 from the same in double precision, {} colours in its soft edge\n", worst,
-			   partly);
-}
-
-TEST_F(PanelKeyTest, StoredValuesThatAreLinearAreComparedEncoded)
-{
-	// Linear 0.2158 is 128 encoded.
-	const KeyedOut keyed{{{128 / 255.0f, 128 / 255.0f, 128 / 255.0f}, 0.02f, 0.02f}, 1};
-	show({55, 55, 55, 255}, keyed, VK_FORMAT_R8G8B8A8_UNORM);
-	expectNear(at(centreX, centreY), camera, 1.5);
-	show({128, 128, 128, 255}, keyed, VK_FORMAT_R8G8B8A8_UNORM);
-	expectNear(at(centreX, centreY), {128 / 255.0, 128 / 255.0, 128 / 255.0}, 1.5);
-}
-
-TEST_F(PanelKeyTest, WhatStaysHasItsOpacity)
-{
-	const KeyedOut keyed{{{0, 1, 0}, 0.15f, 0.1f}, 0.25f};
-	show({255, 0, 0, 255}, keyed);
-	expectNear(at(centreX, centreY), expected({255, 0, 0, 255}, keyed), 1.5);
-	show({0, 255, 0, 255}, keyed);
-	expectNear(at(centreX, centreY), camera, 1.5);
 }
 
 } // namespace

@@ -83,6 +83,48 @@ TEST_F(PanelSurfaces, FactorsMakeTheColoursComputedByHand)
 	}
 }
 
+constexpr auto alphaBelow = XR_BLEND_FACTOR_DST_ALPHA_FB, restBelow = XR_BLEND_FACTOR_ONE_MINUS_DST_ALPHA_FB;
+
+/// An opaque layer of linear 0.4 green, over one of colour c and alpha a.
+constexpr FactorCase alphaBelowCases[] = {
+	{"insideWhatIsBelow", {alphaBelow, rest, alphaBelow, rest}, true, {0, 0.4 * a, 0}, 1 - a},
+	{"behindWhatIsBelow", {restBelow, one, restBelow, one}, true, {0.4, 0.2 + 0.4 * (1 - a), 0.6}, 0},
+	{"keptByAlpha", {zero, alphaBelow, zero, alphaBelow}, true, {0.4 * a, 0.2 * a, 0.6 * a}, 1 - a *a},
+	{"keptByTheRest", {zero, restBelow, zero, restBelow}, true, {0.4 * (1 - a), 0.2 * (1 - a), 0.6 * (1 - a)}, 1 - a *(1 - a)},
+	{"alphaAlone", {one, zero, zero, alphaBelow}, true, {0, 0.4, 0}, 1 - a *a}};
+
+TEST_F(PanelSurfaces, TheAlphaOfTheLayersBelowIsAFactorInEveryMode)
+{
+	seeGrey(cameraValue);
+	for (const FactorCase &factor : alphaBelowCases) {
+		inputs.layers.clear();
+		addUniformLayer(colour, sourceAlpha);
+		addUniformLayer({0, 102, 0, 255}, 0).factors = factor.factors;
+		for (const auto mode : {alphaBlend, opaque, additive}) {
+			SCOPED_TRACE(std::string(factor.name) + " in mode " + std::to_string(mode));
+			inputs.blendMode = mode;
+			render();
+			expectOverCamera(factor.light, mode == alphaBlend ? factor.world : mode == opaque ? 0 : 1);
+		}
+	}
+}
+
+TEST_F(PanelSurfaces, WhatIsBelowIsKeptByItsAlphaWhereTheLayerIsAndNowhereElse)
+{
+	inputs.blendMode = opaque;
+	addUniformLayer(colour, sourceAlpha);
+	addQuad(addImage(4, 4,
+					 [](auto...) {
+						 return std::array<uint8_t, 4>{0, 0, 0, 255};
+					 }),
+			{identityOrientation, {0, 0, -1}}, {0.4f, 0.4f}, {{0, 0}, {4, 4}})
+		.factors = BlendFactors{zero, alphaBelow, zero, alphaBelow};
+	render();
+	const glm::dvec2 edge = pixelOf(Eye::left, {0.2f, 0, -1});
+	expectNear(at(int(edge.x) - 3, int(edge.y)), {0.4 * a, 0.2 * a, 0.6 * a}, 1.6);
+	expectNear(at(int(edge.x) + 3, int(edge.y)), c, 1.6);
+}
+
 TEST_F(PanelSurfaces, AFaceOfACubeIsSeenWhereItIs)
 {
 	constexpr std::array<std::array<uint8_t, 4>, 6> faces{

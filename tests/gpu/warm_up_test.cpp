@@ -54,7 +54,8 @@ protected:
 		render();
 		inputs.layers.erase(inputs.layers.begin()); // the quad alone, over the camera
 		render();
-		inputs.layers.front().key = KeyedOut{}; // the quad loses a colour
+		inputs.layers.front().flags = 0; // as of the lowest layer of an application that is shown by a key
+		inputs.layers.front().key = KeyedOut{};
 		render();
 		inputs.layers.push_back({.passthrough = PassthroughStyle{.opacity = 0.5f}});
 		render();

@@ -210,6 +210,7 @@ struct DepthLayers : CompositionLayers {
 	}
 	XrSwapchain depths = XR_NULL_HANDLE;
 	XrCompositionLayerDepthInfoKHR infos[2];
+	XrCompositionLayerDepthTestVARJO range{XR_TYPE_COMPOSITION_LAYER_DEPTH_TEST_VARJO, nullptr, 0.5f, infinity};
 	Projection projection{chain, space};
 };
 
@@ -273,17 +274,24 @@ TEST_F(DepthLayers, ATestForDepthNeedsDepth)
 
 TEST_F(DepthLayers, ATestForDepthMayHaveARange)
 {
-	XrCompositionLayerDepthTestVARJO test{XR_TYPE_COMPOSITION_LAYER_DEPTH_TEST_VARJO, nullptr, 0.5f, infinity};
-	projection.layer.next = &test;
+	for (XrCompositionLayerDepthInfoKHR &info : infos) info.next = &range;
 	ASSERT_EQ(end(projection.layer), XR_SUCCESS);
-	const ipc::DepthTest found = newest().depthTest;
-	EXPECT_EQ(found.given, 1u);
-	EXPECT_EQ(found.compareOp, uint32_t(XR_COMPARE_OP_LESS_OR_EQUAL_FB));
-	EXPECT_EQ(found.nearest, 0.5f);
-	EXPECT_EQ(found.farthest, 0) << "there is no such end";
+	const ipc::Layer found = newest();
+	EXPECT_EQ(found.depthTest.given, 1u);
+	EXPECT_EQ(found.depthTest.compareOp, uint32_t(XR_COMPARE_OP_LESS_OR_EQUAL_FB));
+	EXPECT_EQ(found.depthTest.writes, 1u);
+	for (const ipc::LayerView &view : found.views) {
+		EXPECT_EQ(view.depth.testedFrom, 0.5f);
+		EXPECT_EQ(view.depth.testedTo, 0) << "there is no such end";
+	}
+	infos[1].next = nullptr;
+	ASSERT_EQ(end(projection.layer), XR_SUCCESS);
+	EXPECT_EQ(newest().depthTest.given, 0u) << "one view does not ask for it";
+	EXPECT_EQ(newest().views[0].depth.testedFrom, 0);
+	infos[1].next = &range;
 	for (const auto &[nearest, farthest] : {std::pair{1.0f, 1.0f}, {2.0f, 1.0f}, {-1.0f, 1.0f}, {NAN, 1.0f}}) {
-		test.depthTestRangeNearZ = nearest;
-		test.depthTestRangeFarZ = farthest;
+		range.depthTestRangeNearZ = nearest;
+		range.depthTestRangeFarZ = farthest;
 		EXPECT_EQ(end(projection.layer), XR_ERROR_VALIDATION_FAILURE) << nearest << " to " << farthest;
 	}
 }

@@ -9,7 +9,7 @@ using namespace arift;
 namespace
 {
 
-using Kind = SwapchainShape::Kind;
+using Kind = gpu::ImageKind;
 /// 1: of two array layers; 2: of two cubes; 3: of depth.
 const FindSwapchain find = [](uint32_t swapchain) -> std::optional<SwapchainShape> {
 	switch (swapchain) {
@@ -45,8 +45,9 @@ ipc::Submission good()
 	submission.blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
 	submission.layerCount = 5;
 	submission.layers[0].views = {wholeView(), wholeView()};
-	for (ipc::LayerView &view : submission.layers[0].views) view.depth = {{.swapchain = 3, .width = 320, .height = 240}, 10, -9.9f};
-	submission.layers[0].depthTest = {.given = 1, .compareOp = 7, .writes = 1, .nearest = 0.5f, .farthest = 3};
+	for (ipc::LayerView &view : submission.layers[0].views)
+		view.depth = {{.swapchain = 3, .width = 320, .height = 240}, 10, -9.9f, 0.5f, 3};
+	submission.layers[0].depthTest = {.given = 1, .compareOp = 7, .writes = 1};
 	submission.layers[1].type = ipc::LayerType::quad;
 	submission.layers[1].views[0] = wholeView();
 	submission.layers[1].width = 1;
@@ -132,8 +133,8 @@ TEST(DecodeSubmission, EveryHostileFieldIsRefused)
 		{"comparison of depths", [](auto &s, float, float) { s.layers[0].depthTest.compareOp = 8; }},
 		{"depth test neither given nor not", [](auto &s, float, float) { s.layers[0].depthTest.given = 2; }},
 		{"depth neither written nor not", [](auto &s, float, float) { s.layers[0].depthTest.writes = 2; }},
-		{"NaN depth range", [](auto &s, float n, float) { s.layers[0].depthTest.nearest = n; }},
-		{"negative depth range", [](auto &s, float, float) { s.layers[0].depthTest.farthest = -1; }},
+		{"NaN depth range", [](auto &s, float n, float) { s.layers[0].views[1].depth.testedFrom = n; }},
+		{"negative depth range", [](auto &s, float, float) { s.layers[0].views[0].depth.testedTo = -1; }},
 		{"passthrough layer",
 		 [](auto &s, float, float) {
 			 s.layers[0].type = ipc::LayerType::passthrough;

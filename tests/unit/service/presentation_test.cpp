@@ -170,5 +170,17 @@ TEST(Presentation, AKeyIsTheLayersOwn)
 	EXPECT_FALSE(content->layers[1].key);
 }
 
+TEST(Presentation, WithAKeyTheLowestLayersAlphaCountsOnlyWhereItDid)
+{
+	constexpr XrCompositionLayerFlags straight = sourceAlpha | XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT;
+	const auto flagsOf = [](XrEnvironmentBlendMode mode, XrCompositionLayerFlags flags, size_t layer) {
+		return contentOf(submissionOf("qq", mode, uint32_t(flags)), 1, forcing(ipc::Forced::chroma))->layers[layer].flags;
+	};
+	EXPECT_EQ(flagsOf(opaque, sourceAlpha, 0), 0u) << "black was below it";
+	EXPECT_EQ(flagsOf(opaque, sourceAlpha, 1), sourceAlpha);
+	EXPECT_EQ(flagsOf(opaque, straight, 0), straight);
+	EXPECT_EQ(flagsOf(alphaBlend, sourceAlpha, 0), sourceAlpha);
+}
+
 } // namespace
 } // namespace arift
