@@ -6,7 +6,7 @@
 
 #include "panel_lens.glsl"
 
-layout(constant_id = 67) const int look = 0;                 // Look (compositor/pipelines.h) of the cameras' image
+layout(constant_id = 67) const int look = 0;                 // Look (compositor/pipeline_key.h) of the cameras' image
 layout(constant_id = 68) const bool keyed = false;           // a colour of the layer stands for what is behind it
 
 const int coverNone = 0, coverPartly = 1, coverFully = 2, coverOpaque = 3;

@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// One pixel of a layer that is not plain: on a cylinder, a sphere or a cube, as far away as a projection view's depth says, or with scaled
-// colour or blend factors of its own. Over what is there, in linear light; every colour at its own place, and with its own alpha.
+// One pixel of a layer that is not plain: on a cylinder, a sphere or a cube, as far away as a projection view's depth says, tested for how
+// far away it is, keyed out with an alpha of its own, or with scaled colour or blend factors. Over what is there, in linear light; every colour at its own place, and with its own alpha.
 #include "panel_lens.glsl"
 #include "surface_block.h"
 #include "chroma_key.glsl"
@@ -10,7 +10,7 @@ layout(constant_id = 68) const bool keyed = false;           // a colour of the 
 layout(constant_id = 69) const int surface = 1;              // Surface (compositor/panel_inputs.h)
 const int surfaceCylinder = 2, surfaceSphere = 3;
 const bool curved = surface == surfaceCylinder || surface == surfaceSphere;
-layout(constant_id = 70) const int depth = 0;                // Depth (compositor/pipelines.h)
+layout(constant_id = 70) const int depth = 0;                // Depth (compositor/pipeline_key.h)
 const int depthUnused = 0, depthOutside = 2;
 layout(constant_id = 71) const bool keptByAlphaBelow = false; // what is below is multiplied by its own alpha wherever something is drawn
 
@@ -102,7 +102,7 @@ vec4 straightOfFour(vec2 middle, int channel, vec4 alpha)
 	return encodedLight(straightened(mix(stored, decoded(stored), texels.x), alpha));
 }
 
-/// One colour and its alpha between the four texels around a place, after decoding them; nothing beyond the sub-image. Keyed: premultiplied.
+/// One colour and its alpha between the four texels around a place, after decoding them; nothing beyond the sub-image. Keyed: multiplied.
 vec2 sampled(vec3 place, int channel, out float there)
 {
 	const vec2 texel = texelOf(place), at = within(texel, bounds.xy, bounds.zw), off = abs(texel - at);
@@ -140,25 +140,29 @@ vec3 placeAt(vec3 ray, float nearness) { return met(ray + origin * nearness); }
 /// A place in the image as one in the depth image, whose texels begin at integers.
 vec3 inDepthImage(vec3 place) { return vec3(place.xy * depthTexel.xy + place.z * depthTexel.zw, place.z); }
 
-/// The nearness at which the ray would have to meet what the view shows where the ray passes, there in the depth image. Never NaN, whatever
-/// the image holds.
-float shownNearness(vec3 place)
+/// 1 / distance ahead of the view of what it shows at a place in the depth image. Never NaN, whatever the image holds.
+float inverseAt(vec3 place)
 {
 	const ivec2 texel = clamp(ivec2(place.xy * (1.0 / place.z)), ivec2(depthBounds.xy), ivec2(depthBounds.zw));
 	const float inverse = depthSearch.x + depthSearch.y * texelFetch(depthTexture, texel, 0).r;
-	return inverse > 0.0 ? place.z * min(inverse, depthSearch.z) : 0.0;
+	return inverse > 0.0 ? inverse : 0.0;
 }
+
+/// The nearness at which the ray would have to meet what the view shows where the ray passes, there in the depth image.
+float shownNearness(vec3 place) { return place.z * min(inverseAt(place), depthSearch.z); }
 
 /// The first thing that the ray meets, from the viewer on: between two steps it goes behind what the view shows. On a plane the chord finds
 /// the very place. Where what is shown comes nearer by more than a step, an edge lies between both: either the ray meets what is behind the
 /// edge, or it passes into what the view did not see. Nothing is known of that, and it shows what is beside the edge and farther away, drawn
-/// out over the hole: in a hologram's view mostly nothing.
-float metNearness(vec3 ray)
+/// out over the hole: in a hologram's view mostly nothing. `shows`: the nearness of what is shown there.
+float metNearness(vec3 ray, out float shows)
 {
 	const int steps = int(depthSearch.w);
 	const float most = depthSearch.z * max(ray.z, 0.0), apart = most / depthSearch.w;
 	const vec3 from = inDepthImage(ray), along = inDepthImage(origin);
 	float before = most, shownBefore = shownNearness(from + along * before), now = before, shown = shownBefore;
+	shows = before;
+	if (shownBefore >= before) return before; // as near as can be
 	for (int step = 1; step <= steps; ++step) {
 		now = most - apart * float(step);
 		shown = shownNearness(from + along * now);
@@ -167,19 +171,30 @@ float metNearness(vec3 ray)
 		shownBefore = shown;
 	}
 	const float behind = shown - now, inFront = before - shownBefore;
-	if (shown - shownBefore > apart) return min(shown, before);
-	return mix(now, before, clamp(behind / max(behind + inFront, 1e-9), 0.0, 1.0));
+	if (shown - shownBefore > apart) {
+		shows = shown <= before ? shown : shownBefore;
+		return min(shown, before);
+	}
+	shows = mix(now, before, clamp(behind / max(behind + inFront, 1e-9), 0.0, 1.0));
+	return shows;
+}
+
+/// What a depth test is to know of a place in the depth image where something is shown at this nearness: more than how it is moved.
+float testedNearness(vec3 place, float shows)
+{
+	const float inverse = inverseAt(place);
+	return inverse > depthSearch.z ? place.z * inverse : shows;
 }
 
 /// All colours are as far away as green: where edges move by much, red and blue have theirs a few pixels off.
 void layerColour(Seen seen, out vec3 colour, out vec3 alpha, out vec3 there, out float nearness)
 {
 	const vec3 across = rayMatrix[0] * seen.tangents.x + rayMatrix[1] * seen.tangents.y;
-	nearness = metNearness(rayMatrix[2] + across);
-	const vec3 green = placeAt(rayMatrix[2] + across, nearness);
-	const vec3 blue = placeAt(rayMatrix[2] + across * seen.chromatic.blue, nearness);
-	const vec3 red = redItself ? placeAt(rayMatrix[2] + across * seen.chromatic.red, nearness)
-							   : redOf(green, blue, seen.chromatic.redFromBlue);
+	const vec3 ray = rayMatrix[2] + across;
+	const float at = metNearness(ray, nearness);
+	if (depth != depthUnused) nearness = testedNearness(inDepthImage(ray) + inDepthImage(origin) * at, nearness);
+	const vec3 green = placeAt(ray, at), blue = placeAt(rayMatrix[2] + across * seen.chromatic.blue, at);
+	const vec3 red = redItself ? placeAt(rayMatrix[2] + across * seen.chromatic.red, at) : redOf(green, blue, seen.chromatic.redFromBlue);
 	const vec2 r = sampled(red, 0, there.x), g = sampled(green, 1, there.y), b = sampled(blue, 2, there.z);
 	colour = vec3(r.x, g.x, b.x);
 	alpha = vec3(r.y, g.y, b.y);
@@ -213,11 +228,11 @@ void main()
 		gl_FragDepth = clamp(nearness * nearestTested, 0.0, 1.0);
 	}
 	if (!keyed) alpha = mix(alpha, vec3(1.0), texels.y);
-	const float isStraight = keyed ? 0.0 : texels.w;
+	else if (texels.w > 0.0) colour = mix(vec3(0.0), colour / max(alpha, 1e-6), greaterThan(alpha, vec3(0.0))); // as it was
 	// XR_KHR_composition_layer_color_scale_bias: of straight colour, which then is what it was before, straight or not.
-	const vec3 straight = isStraight > 0.0 ? colour : mix(vec3(0.0), colour / max(alpha, 1e-6), greaterThan(alpha, vec3(0.0)));
+	const vec3 straight = texels.w > 0.0 ? colour : mix(vec3(0.0), colour / max(alpha, 1e-6), greaterThan(alpha, vec3(0.0)));
 	const vec3 scaledAlpha = clamp(alpha * colorScale.a + colorBias.a, 0.0, 1.0);
-	const vec3 scaled = max(straight * colorScale.rgb + colorBias.rgb, 0.0) * (isStraight > 0.0 ? vec3(1.0) : scaledAlpha);
+	const vec3 scaled = max(straight * colorScale.rgb + colorBias.rgb, 0.0) * (texels.w > 0.0 ? vec3(1.0) : scaledAlpha);
 	if (texels.z > 0.0) {
 		colour = scaled;
 		alpha = scaledAlpha;

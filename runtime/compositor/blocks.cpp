@@ -118,10 +118,6 @@ const LayerTexture &textureOf(const PanelLayer &layer, size_t eye)
 	return layer.curved[eye] ? layer.curved[eye]->texture : layer.cube[eye]->texture;
 }
 
-bool hasAlpha(const PanelLayer &layer) { return layer.factors || (layer.flags & XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT); }
-
-bool isOpaque(const PanelLayer &layer) { return !hasAlpha(layer) && !layer.key; }
-
 shaders::LayerBlock layerBlock(const PanelLayer &layer, size_t eye, uint32_t band, const MatrixByBand &uv, uint32_t width, uint32_t height)
 {
 	const LayerTexture &texture = textureOf(layer, eye);
@@ -129,11 +125,10 @@ shaders::LayerBlock layerBlock(const PanelLayer &layer, size_t eye, uint32_t ban
 	const glm::dmat3 toTexel(extent.x, 0, 0, 0, extent.y, 0, corner.x - 0.5, corner.y - 0.5, 1);
 	MatrixByBand texel;
 	std::ranges::transform(uv, texel.begin(), [&](const glm::dmat3 &m) { return toTexel * m; });
-	const bool multiply = !isOpaque(layer) && !layer.key && (layer.flags & XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT);
 	shaders::LayerBlock block{};
 	block.texel = byLine(texel, band);
 	block.bounds = {corner.x, corner.y, corner.x + extent.x - 1, corner.y + extent.y - 1};
-	block.mode = {1.0f / float(width), 1.0f / float(height), isOpaque(layer) ? 1 : 0, multiply ? 1 : 0};
+	block.mode = {1.0f / float(width), 1.0f / float(height), layer.isOpaque() ? 1 : 0, layer.isStraight() ? 1 : 0};
 	if (layer.key) addKey(block, *layer.key);
 	return block;
 }

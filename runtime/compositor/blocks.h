@@ -38,10 +38,6 @@ shaders::MatrixByLine byLine(const MatrixByBand &m, uint32_t band);
 /// The layer's uv matrices by band; nothing where this eye does not see it.
 std::optional<MatrixByBand> layerMatrices(const PanelLayer &layer, size_t eye, const EyesByBand &eyes);
 const LayerTexture &textureOf(const PanelLayer &layer, size_t eye);
-/// Whether its image's alpha counts.
-bool hasAlpha(const PanelLayer &layer);
-/// Whether it hides what is below it wherever it is.
-bool isOpaque(const PanelLayer &layer);
 /// `width` and `height` of the whole image, texels.
 shaders::LayerBlock layerBlock(const PanelLayer &layer, size_t eye, uint32_t band, const MatrixByBand &uv, uint32_t width, uint32_t height);
 

@@ -127,7 +127,9 @@ private:
 						.keyed = layer.key.has_value(),
 						.surface = surface,
 						.byAlphaBelow = alphaBelowFactors(layer)};
-		if (layer.depthTest && (surface == Surface::deep || !layer.projection[draw_.eye])) {
+		// What is always seen and never there for others is not tested.
+		const bool matters = layer.depthTest && (layer.depthTest->compare != VK_COMPARE_OP_ALWAYS || layer.depthTest->writes);
+		if (matters && (surface == Surface::deep || !layer.projection[draw_.eye])) {
 			key.depth = Depth::tested;
 			key.compare = layer.depthTest->compare;
 			key.writesDepth = layer.depthTest->writes;
@@ -140,7 +142,9 @@ private:
 		if (!seesDepth(layer, draw_.eye, eyes_)) return false;
 		const LayerTexture &depth = layer.projection[draw_.eye]->depth->texture;
 		const auto image = findImage_(depth);
-		return image && lies(depth, *image->spec, gpu::ImageKind::depth) && isReady_(surfaceKey(layer, Surface::deep));
+		if (!image || !lies(depth, *image->spec, gpu::ImageKind::depth)) return false;
+		const PipelineKey key = surfaceKey(layer, Surface::deep);
+		return isReady_(key) && (key.depth == Depth::unused || !hasRange(layer) || isReady_(outsideOf(key)));
 	}
 
 	void addPlain(size_t index, const PanelLayer &layer, const KnownImage &image)
@@ -151,7 +155,7 @@ private:
 		// Half a texel within the edge, what lies beyond it would be mixed in.
 		const glm::dvec2 border(0.5 / texture.rect.extent.width, 0.5 / texture.rect.extent.height);
 		covers_[index] =
-			coverage(draw_.grid, *matrices, border, contentOf(texture, layer.key ? nullptr : image.occupancy, isOpaque(layer)));
+			coverage(draw_.grid, *matrices, border, contentOf(texture, layer.key ? nullptr : image.occupancy, layer.isOpaque()));
 		if (!draw_.geometry.throughLens || layer.key || tests_) blendEverywhere(covers_[index]);
 		pipelines_[index] = {.layerEncoded = gpu::storedFormat(VkFormat(image.spec->format)) != VkFormat(image.spec->format),
 							 .throughLens = draw_.geometry.throughLens,
@@ -233,9 +237,7 @@ private:
 		item.pipeline.layer = tiles.cover == Cover::opaque && !alone ? Cover::fully : tiles.cover;
 		addRects(item, tiles.rects);
 		if (item.pipeline.depth == Depth::unused || !hasRange(draw_.inputs.layers[size_t(tiles.layer)])) return;
-		item.pipeline.depth = Depth::outside;
-		item.pipeline.compare = PipelineKey{}.compare;
-		item.pipeline.writesDepth = false;
+		item.pipeline = outsideOf(item.pipeline);
 		addRects(item, tiles.rects);
 	}
 
@@ -251,6 +253,15 @@ private:
 		const LayerTexture &depth = layer.projection[draw_.eye]->depth->texture;
 		item.depthImage = depth.image;
 		item.depthArrayIndex = depth.arrayIndex;
+	}
+
+	/// What draws the rest of a layer that is tested in a range alone.
+	static PipelineKey outsideOf(PipelineKey key)
+	{
+		key.depth = Depth::outside;
+		key.compare = PipelineKey{}.compare;
+		key.writesDepth = false;
+		return key;
 	}
 
 	/// Of a view that is tested.

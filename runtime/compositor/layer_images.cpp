@@ -65,7 +65,8 @@ LayerImages::LayerImages(gpu::Device::Handles &gpu, vk::DescriptorSetLayout layo
 
 void LayerImages::add(uint64_t key, VkImage image, const gpu::ImageSpec &spec, const gpu::ImageRows &rows)
 {
-	if (spec.samples != 1) return;
+	// Of several samples, or a cube of depths: no layer shows that.
+	if (spec.samples != 1 || (gpu::isCube(spec) && gpu::isDepth(VkFormat(spec.format)))) return;
 	const uint32_t count = gpu::arraySize(spec);
 	Entry entry{image, spec, {}, poolFor(gpu_, count), {}, occupancyOf(spec, rows)};
 	const std::vector layouts(count, layout_);

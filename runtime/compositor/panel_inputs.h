@@ -107,6 +107,13 @@ struct PanelLayer {
 	std::optional<KeyedOut> key;
 	/// Instead of all that: the cameras' image over what is below.
 	std::optional<PassthroughStyle> passthrough;
+
+	/// Whether its image's alpha counts.
+	bool hasAlpha() const { return factors || (flags & XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT); }
+	/// Whether its image's colours are not yet multiplied by that.
+	bool isStraight() const { return hasAlpha() && (flags & XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT); }
+	/// Whether it hides what is below it wherever it is.
+	bool isOpaque() const { return !hasAlpha() && !key; }
 };
 
 struct PanelInputs {

@@ -35,7 +35,8 @@ public:
 
 	/// Makes the usual pipelines and draws with each once: software renderers compile when they first draw with a kind of texture, which
 	/// costs a frame.
-	/// What is rarer (layers that are not sRGB encoded or not 8-bit RGBA, cameras of encoded values, eyes without the lens) is left out.
+	/// What is rarer (layers that are not sRGB encoded or not 8-bit RGBA, deep, tested, or keyed out with an alpha of their own, cameras of
+	/// encoded values, eyes without the lens) is left out.
 	void warmUp();
 
 	/// An application's image. It must be in its boundary layout, owned by VK_QUEUE_FAMILY_EXTERNAL, whenever render() is given it.

@@ -1,4 +1,5 @@
 #include "runtime/compositor/pipelines.h"
+#include "runtime/base/log.h"
 #include "shaders/panel.frag.h"
 #include "shaders/panel.vert.h"
 #include "shaders/panel_blocks.h"
@@ -264,20 +265,13 @@ void Pipelines::makeOthers(const std::stop_token &stop)
 			key = others->wanted.front();
 			others->wanted.pop_front();
 		}
-		Other made;
 		try {
-			made.pipeline = factory_->make(key);
-		} catch (...) {
-			made.failure = std::current_exception();
+			vk::raii::Pipeline made = factory_->make(key);
+			others_.update([&](Others &others) { others.pipelines.at(key) = std::move(made); });
+		} catch (const std::exception &problem) {
+			log::warning("layers of one kind are left out, because the GPU cannot draw them: {}", problem.what());
 		}
-		others_.update([&](Others &others) { others.pipelines.at(key) = std::move(made); });
 	}
-}
-
-vk::Pipeline Pipelines::Other::get() const
-{
-	if (failure) std::rethrow_exception(failure);
-	return *pipeline;
 }
 
 vk::Pipeline Pipelines::find(const PipelineKey &key)
@@ -287,11 +281,14 @@ vk::Pipeline Pipelines::find(const PipelineKey &key)
 	{
 		const auto others = others_.lock();
 		const auto other = others->pipelines.find(key);
-		if (other != others->pipelines.end()) return other->second.get();
+		if (other != others->pipelines.end()) return *other->second;
+		if (others->pipelines.size() >= mostOthers) return nullptr;
 	}
 	others_.update([&](Others &others) {
-		others.pipelines[key];
+		others.pipelines.emplace(key, nullptr);
 		others.wanted.push_back(key);
+		if (others.pipelines.size() == mostOthers)
+			log::warning("layers have been drawn in {} unusual ways: those drawn in further ones are left out", mostOthers);
 	});
 	return nullptr;
 }

@@ -4,7 +4,6 @@
 #include "runtime/compositor/pipeline_key.h"
 #include "runtime/gpu/handles.h"
 #include <deque>
-#include <exception>
 #include <map>
 #include <memory>
 #include <thread>
@@ -33,19 +32,16 @@ public:
 	vk::DescriptorSetLayout surfaceSetLayout() const { return *surfaceSetLayout_; }
 	/// Made here and now if it has not been. Throws vk::SystemError where it cannot be.
 	vk::Pipeline at(const PipelineKey &key);
-	/// Null as long as it is being made, which begins when it is first asked for, unless at() has made it. Throws as at().
+	/// Unusual ways to draw a layer that an application may find: more than any needs, and not as many as it can think of.
+	static constexpr size_t mostOthers = 256;
+	/// Null as long as it is being made, which begins when it is first asked for, unless at() has made it; and for ever where it cannot be
+	/// made, or where mostOthers have been asked for.
 	vk::Pipeline find(const PipelineKey &key);
 
 private:
-	struct Other {
-		vk::raii::Pipeline pipeline{nullptr};
-		std::exception_ptr failure;
-
-		vk::Pipeline get() const;
-	};
 	/// Those that find() was asked for; what is wanted is made in this order.
 	struct Others {
-		std::map<PipelineKey, Other> pipelines;
+		std::map<PipelineKey, vk::raii::Pipeline> pipelines;
 		std::deque<PipelineKey> wanted;
 	};
 	class Factory;

@@ -36,9 +36,8 @@ ByAlphaBelow byAlphaBelow(XrBlendFactorFB factor)
 BlendFactors factorsOf(const PanelLayer &layer)
 {
 	if (layer.factors) return *layer.factors;
-	const bool straight = layer.flags & XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT;
-	return {straight && hasAlpha(layer) && !layer.key ? XR_BLEND_FACTOR_SRC_ALPHA_FB : XR_BLEND_FACTOR_ONE_FB,
-			XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB, XR_BLEND_FACTOR_ONE_FB, XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB};
+	return {layer.isStraight() ? XR_BLEND_FACTOR_SRC_ALPHA_FB : XR_BLEND_FACTOR_ONE_FB, XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB,
+			XR_BLEND_FACTOR_ONE_FB, XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB};
 }
 
 bool isTransformed(const PanelLayer &layer)
@@ -269,12 +268,12 @@ Surface surfaceOf(const PanelLayer &layer, size_t eye)
 bool isPlain(const PanelLayer &layer)
 {
 	const bool flat = !layer.curved[0] && !layer.curved[1] && !layer.cube[0] && !layer.cube[1];
-	return flat && !(layer.key && hasAlpha(layer)) && !layer.factors && !isTransformed(layer);
+	return flat && !(layer.key && layer.hasAlpha()) && !layer.factors && !isTransformed(layer);
 }
 
 bool isShownWhereEmpty(const PanelLayer &layer)
 {
-	return layer.factors || !hasAlpha(layer) || layer.colorBias.a != 0 || (layer.depthTest && layer.depthTest->writes);
+	return layer.factors || !layer.hasAlpha() || layer.colorBias.a != 0 || (layer.depthTest && layer.depthTest->writes);
 }
 
 AlphaBelowFactors alphaBelowFactors(const PanelLayer &layer)
@@ -377,12 +376,11 @@ shaders::SurfaceBlock surfaceBlock(const PanelLayer &layer, Surface surface, siz
 	const Factor sourceColor = factorOf(factors.sourceColor), keptColor = factorOf(factors.keptColor);
 	const Factor sourceAlpha = factorOf(factors.sourceAlpha), keptAlpha = factorOf(factors.keptAlpha);
 	const bool encoded = surface != Surface::cube && gpu::storedFormat(VkFormat(spec.format)) != VkFormat(spec.format);
-	const bool straight = layer.flags & XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT;
 	block.colorScale = vectorOf(layer.colorScale);
 	block.colorBias = vectorOf(layer.colorBias);
 	block.source = {sourceColor.constant, sourceColor.byAlpha, sourceAlpha.constant, sourceAlpha.byAlpha};
 	block.kept = {keptColor.constant, keptColor.byAlpha, keptAlpha.constant, keptAlpha.byAlpha};
-	block.texels = {encoded, !hasAlpha(layer), isTransformed(layer), straight};
+	block.texels = {encoded, !layer.hasAlpha(), isTransformed(layer), layer.isStraight()};
 	const float radius = layer.curved[eye] ? layer.curved[eye]->radius : 0;
 	block.size = {flat.mode.x, flat.mode.y, radius > 0 ? 1 / radius : 0, 0};
 	if (layer.key) describeKey(block, *layer.key);

@@ -1,5 +1,6 @@
-// Layers that panel.frag does not draw: on cylinders, spheres and cubes, as far away as their depth says, and those with a colour scale, a
-// bias or blend factors of their own. Pure functions in double precision; surface.frag is their other half.
+// Layers that panel.frag does not draw: on cylinders, spheres and cubes, as far away as their depth says, and those that are tested for how
+// far away they are, keyed out with an alpha of their own, or have a colour scale, a bias or blend factors. Pure functions in double
+// precision; surface.frag is their other half.
 #pragma once
 #include "runtime/compositor/blocks.h"
 #include "runtime/compositor/pipeline_key.h"

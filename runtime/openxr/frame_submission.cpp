@@ -154,7 +154,8 @@ void FrameSubmission::addProjection(const XrCompositionLayerProjection &projecti
 	layer.flags = requireFlags(projection.layerFlags);
 	if (projection.viewCount != 2 || !projection.views)
 		throw Error(XR_ERROR_VALIDATION_FAILURE, "a projection layer has {} views instead of 2", projection.viewCount);
-	bool isPlaced = true, haveRange = session_.instance.has(Extension::VARJO_composition_layer_depth_test);
+	const bool rangesCount = session_.instance.has(Extension::VARJO_composition_layer_depth_test);
+	bool isPlaced = true, haveRange = rangesCount;
 	for (size_t eye = 0; eye < 2; ++eye) {
 		const XrCompositionLayerProjectionView &view = projection.views[eye];
 		requireType(&view);
@@ -163,7 +164,10 @@ void FrameSubmission::addProjection(const XrCompositionLayerProjection &projecti
 		isPlaced = isPlaced && pose;
 		layer.views[eye] = {pose.value_or(identityPose), view.fov, subImage(view.subImage, gpu::ImageKind::flat)};
 		addDepth(layer.views[eye], view.next);
-		haveRange = haveRange && setDepthTestRange(layer.views[eye], view.next);
+		// The specification's text asks for it in the views' chains, its registry in the layer's.
+		if (rangesCount)
+			haveRange =
+				(setDepthTestRange(layer.views[eye], view.next) || setDepthTestRange(layer.views[eye], projection.next)) && haveRange;
 	}
 	if (haveRange && !layer.depthTest.given) layer.depthTest = depthTestInRange;
 	if (!haveRange)

@@ -92,7 +92,7 @@ std::shared_ptr<const FrameContent> contentOf(const ipc::Submission &submission,
 		else
 			content->layers.push_back(layerOf(layer, submission.rowsGoUp != 0));
 	}
-	force(*content, presentation.forced);
+	force(*content, presentation);
 	if (content->layers.empty() && content->blendMode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE) return nullptr;
 	return content;
 }

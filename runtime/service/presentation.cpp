@@ -32,7 +32,7 @@ bool isMerged(PanelLayer &below, const PassthroughStyle &style)
 void fade(PanelLayer &layer, float opacity)
 {
 	if (opacity >= 1) return;
-	if (layer.flags & sourceAlpha) {
+	if (layer.hasAlpha()) {
 		layer.colorScale.a *= opacity;
 		layer.colorBias.a *= opacity;
 		return;
@@ -68,10 +68,11 @@ void addPassthrough(FrameContent &content, const Presentation &presentation, uin
 	content.layers.push_back({.passthrough = place.style});
 }
 
-void force(FrameContent &content, const ForcedPassthrough &forced)
+void force(FrameContent &content, const Presentation &presentation)
 {
+	const ForcedPassthrough &forced = presentation.forced;
 	if (forced.mode == ipc::Forced::off) return;
-	const bool overBlack = content.blendMode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+	const bool overBlack = content.blendMode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE && !presentation.overlay;
 	content.blendMode = XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND;
 	for (PanelLayer &layer : content.layers) {
 		if (layer.passthrough) continue;

@@ -16,6 +16,7 @@ struct PassthroughPlace {
 /// Of one session.
 struct Presentation {
 	ForcedPassthrough forced;
+	bool overlay = false;         ///< others' layers are below its own
 	bool passthroughRuns = false; ///< else no place is shown
 	std::array<PassthroughPlace, ipc::maxPassthroughLayers> passthrough;
 };
@@ -26,7 +27,7 @@ struct Presentation {
 /// the same, and more than a session can have of them are not drawn in one submission.
 void addPassthrough(FrameContent &content, const Presentation &presentation, uint32_t number);
 /// Last, when all layers are there.
-void force(FrameContent &content, const ForcedPassthrough &forced);
+void force(FrameContent &content, const Presentation &presentation);
 
 /// What a message says of a style, without its map.
 PassthroughStyle styleOf(const ipc::StylePassthrough &message);

@@ -12,6 +12,7 @@ Session::Session(uint32_t number, Clock &clock, ipc::Socket channel, Images imag
 	  images_(std::move(images)),
 	  page_(std::move(page)),
 	  onMalformed_(std::move(onMalformed)),
+	  shown_(Shown{.presentation = {.overlay = order > 0}}),
 	  thread_([this](const std::stop_token &stop) { serve(stop); })
 {
 }

@@ -253,5 +253,28 @@ TEST_F(UnreadyDepth, ALayerIsShownWithoutItsDepthUntilItsPipelineIsMade)
 	EXPECT_NE(deep, flat);
 }
 
+TEST_F(UnreadyDepth, ALayerIsNotTestedInItsRangeUntilTheRestOfItCanBeDrawn)
+{
+	seeGrey(51);
+	PanelLayer layer = addDot();
+	inputs.layers.clear();
+	move(moved);
+	const std::vector<std::byte> world = shown();
+	setDepth(layer, addUniformDepth(0.3));
+	layer.depthTest = DepthTest{VK_COMPARE_OP_LESS_OR_EQUAL, true};
+	for (auto &view : layer.projection) view->depth->testedFrom = 1; // nothing of it is tested
+	inputs.layers.push_back(layer);
+	std::vector<std::byte> flat;
+	for (const XrTime end = realTime() + 60 * second; (flat = shown()) == world && realTime() < end;) continue;
+	ASSERT_NE(flat, world);
+	std::vector<std::byte> deep = flat;
+	for (const XrTime end = realTime() + 60 * second; deep == flat && realTime() < end;) {
+		deep = shown();
+		EXPECT_EQ(renderer.cost().leftOut, 0u) << "nothing of it is ever left out";
+	}
+	EXPECT_NE(deep, world);
+	EXPECT_NE(deep, flat);
+}
+
 } // namespace
 } // namespace arift

@@ -186,6 +186,12 @@ TEST_F(PanelKeyTest, WhatIsLeftHasTheImagesOwnAlpha)
 			wanted[i] = light + camera[i] * (1 - kept * own * opacity);
 		}
 		expectNear(at(centreX, centreY), wanted, 2);
+		// The same by factors that say so.
+		layer.factors =
+			BlendFactors{multiplied ? XR_BLEND_FACTOR_ONE_FB : XR_BLEND_FACTOR_SRC_ALPHA_FB, XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB,
+						 XR_BLEND_FACTOR_ONE_FB, XR_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA_FB};
+		render();
+		expectNear(at(centreX, centreY), wanted, 2);
 	}
 }
 

@@ -30,7 +30,10 @@ TEST_F(PanelSurfaces, StraightColourAndAlphaAreScaledAndOffset)
 		XrCompositionLayerFlags flags;
 		Linear straight;
 		double alpha;
-	} cases[] = {{sourceAlpha, {0.4 / a, 0.2 / a, 0.6 / a}, a}, {unpremultiplied, {0.4, 0.2, 0.6}, a}, {0, {0.4, 0.2, 0.6}, 1}};
+	} cases[] = {{sourceAlpha, {0.4 / a, 0.2 / a, 0.6 / a}, a},
+				 {unpremultiplied, {0.4, 0.2, 0.6}, a},
+				 {0, {0.4, 0.2, 0.6}, 1},
+				 {XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT, {0.4, 0.2, 0.6}, 1}};
 	for (const auto &[flags, straight, before] : cases) {
 		inputs.layers.clear();
 		PanelLayer &layer = addUniformLayer(colour, flags);

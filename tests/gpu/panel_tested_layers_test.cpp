@@ -33,7 +33,7 @@ protected:
 	void addView(std::array<int, 3> shown, double distance, DepthTest test)
 	{
 		PanelLayer &layer = addUniformLayer({uint8_t(shown[0]), uint8_t(shown[1]), uint8_t(shown[2]), 255}, sourceAlpha);
-		const uint64_t depth = addDepth(float(nearZ / distance));
+		const uint64_t depth = addDepth(4, [&](auto) { return float(nearZ / distance); });
 		for (auto &view : layer.projection) view->depth = ViewDepth{{depth, 0, whole}, 0, 1 / nearZ};
 		layer.depthTest = test;
 	}
@@ -51,19 +51,26 @@ protected:
 		}
 	}
 
-private:
-	static constexpr float nearZ = 0.1f; ///< the distance of depth 1, metres; depth 0 is infinitely far away
-	uint64_t addDepth(float depth)
+	static constexpr float nearZ = 0.05f; ///< the distance of depth 1, metres; depth 0 is infinitely far away
+	/// A square whose columns hold `depth`.
+	uint64_t addDepth(uint32_t size, const std::function<float(uint32_t)> &depth, VkImageCreateFlags flags = 0)
 	{
-		const gpu::ImageSpec spec{
-			.format = VK_FORMAT_D32_SFLOAT, .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, .width = 4, .height = 4};
+		const gpu::ImageSpec spec{.format = VK_FORMAT_D32_SFLOAT,
+								  .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+								  .createFlags = flags,
+								  .width = size,
+								  .height = size,
+								  .arrayLayers = flags ? 6u : 1u};
 		gpu::SharedImage &image = depths_.emplace_back(device, spec);
-		const std::vector<float> values(16, depth);
+		std::vector<float> values;
+		for (uint32_t i = 0; i < size * size; ++i) values.push_back(depth(i % size));
 		image.write(0, std::as_bytes(std::span(values)));
 		const uint64_t key = 1000 + depths_.size();
 		renderer.addImage(key, image.image(), spec);
 		return key;
 	}
+
+private:
 	std::vector<gpu::SharedImage> depths_;
 };
 
@@ -185,12 +192,68 @@ TEST_F(PanelTestedLayers, AViewIsAsFarAsItsDepthSays)
 	}
 }
 
+TEST_F(PanelTestedLayers, WhatIsNearerThanIsMovedIsTestedAllTheSame)
+{
+	for (const auto &[distance, shown] : {std::pair{0.12, green}, {0.18, red}}) {
+		inputs.layers.clear();
+		addWall(red, 0.15, lessAndWrites);
+		addView(green, distance, lessAndWrites);
+		expectInTheMiddle(shown);
+	}
+}
+
+/// A view of a near thing before a far wall, and between both another layer: beside the near thing, where the view saw nothing of what is
+/// behind it, the wall's colour is drawn out; it is as far away as the wall there, too.
+TEST_F(PanelTestedLayers, WhatIsDrawnOutOverAHoleIsAsFarAsWhatItShows)
+{
+	addWall(red, 1, lessAndWrites);
+	constexpr uint32_t size = 512;
+	const auto isNear = [](uint32_t column) { return column < size / 2; };
+	const uint64_t picture = addImage(size, size, [&](uint32_t x, auto, auto) {
+		return isNear(x) ? std::array<uint8_t, 4>{0, 0, 255, 255} : std::array<uint8_t, 4>{0, 255, 0, 255};
+	});
+	const uint64_t depth = addDepth(size, [&](uint32_t x) { return float(nearZ / (isNear(x) ? 0.4 : 3.0)); });
+	PanelLayer &layer = inputs.layers.emplace_back();
+	for (size_t e = 0; e < 2; ++e) {
+		layer.projection[e] = ProjectionView{rig.eyeInHead[e], {-0.8f, 0.8f, 0.8f, -0.8f}, {picture, 0, {{0, 0}, {size, size}}}};
+		layer.projection[e]->depth = ViewDepth{{depth, 0, {{0, 0}, {size, size}}}, 0, 1 / nearZ};
+		inputs.top[e].viewInOrigin.position.x += 0.03f;
+		inputs.bottom[e].viewInOrigin.position.x += 0.03f;
+	}
+	layer.depthTest = lessAndWrites;
+	render();
+	int reds = 0, blues = 0, greens = 0;
+	for (const Eye eye : {Eye::left, Eye::right}) {
+		// Across the edge of the near thing, within the wall at 1 m.
+		const glm::dvec2 from = pixelOf(eye, {-0.3f, 0, -1}), to = pixelOf(eye, {0.4f, 0, -1});
+		for (int x = int(from.x); x < int(to.x); ++x) {
+			const auto seen = at(x, int(from.y));
+			reds += seen == red;
+			blues += seen == blue;
+			greens += seen[1] > 100;
+		}
+	}
+	EXPECT_GT(reds, 100);
+	EXPECT_GT(blues, 100);
+	EXPECT_LE(greens, 12) << "the wall behind: where colours of both are mixed in the picture, and nowhere else";
+}
+
 TEST_F(PanelTestedLayers, AViewWithoutDepthIsNotTested)
 {
 	addWall(red, 1, lessAndWrites);
 	addView(green, 2, lessAndWrites);
 	expectInTheMiddle(red);
 	for (auto &view : inputs.layers.back().projection) view->depth.reset();
+	expectInTheMiddle(green);
+}
+
+TEST_F(PanelTestedLayers, ACubeOfDepthsIsNoDepth)
+{
+	addWall(red, 1, lessAndWrites);
+	addView(green, 2, lessAndWrites);
+	const uint64_t cube = addDepth(
+		4, [](auto) { return 0.0f; }, VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT);
+	for (auto &view : inputs.layers.back().projection) view->depth->texture.image = cube;
 	expectInTheMiddle(green);
 }
 

@@ -288,7 +288,12 @@ TEST_F(DepthLayers, ATestForDepthMayHaveARange)
 	ASSERT_EQ(end(projection.layer), XR_SUCCESS);
 	EXPECT_EQ(newest().depthTest.given, 0u) << "one view does not ask for it";
 	EXPECT_EQ(newest().views[0].depth.testedFrom, 0);
-	infos[1].next = &range;
+	infos[0].next = nullptr;
+	projection.layer.next = &range;
+	ASSERT_EQ(end(projection.layer), XR_SUCCESS);
+	EXPECT_EQ(newest().depthTest.given, 1u) << "the layer asks for both";
+	EXPECT_EQ(newest().views[0].depth.testedFrom, 0.5f);
+	EXPECT_EQ(newest().views[1].depth.testedFrom, 0.5f);
 	for (const auto &[nearest, farthest] : {std::pair{1.0f, 1.0f}, {2.0f, 1.0f}, {-1.0f, 1.0f}, {NAN, 1.0f}}) {
 		range.depthTestRangeNearZ = nearest;
 		range.depthTestRangeFarZ = farthest;

@@ -7,6 +7,10 @@
 namespace arift::openxr
 {
 
+// The service takes the one for the other.
+static_assert(int(XR_COMPARE_OP_LESS_OR_EQUAL_FB) == int(VK_COMPARE_OP_LESS_OR_EQUAL));
+static_assert(int(XR_COMPARE_OP_ALWAYS_FB) == int(VK_COMPARE_OP_ALWAYS));
+
 /// Throws XR_ERROR_VALIDATION_FAILURE for what is no XrCompareOpFB.
 inline void applyDepthTest(ipc::Layer &layer, const void *next)
 {

@@ -134,6 +134,7 @@ TEST(DecodeSubmission, EveryHostileFieldIsRefused)
 		{"depth test neither given nor not", [](auto &s, float, float) { s.layers[0].depthTest.given = 2; }},
 		{"depth neither written nor not", [](auto &s, float, float) { s.layers[0].depthTest.writes = 2; }},
 		{"NaN depth range", [](auto &s, float n, float) { s.layers[0].views[1].depth.testedFrom = n; }},
+		{"endless depth range", [](auto &s, float, float i) { s.layers[0].views[1].depth.testedTo = i; }},
 		{"negative depth range", [](auto &s, float, float) { s.layers[0].views[0].depth.testedTo = -1; }},
 		{"passthrough layer",
 		 [](auto &s, float, float) {

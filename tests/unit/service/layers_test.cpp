@@ -54,6 +54,20 @@ TEST(Layers, AViewsDepthIsSaidOfItWhereItHasAny)
 	EXPECT_EQ(depth.inverseScale, -9);
 }
 
+TEST(Layers, ADepthTestIsTheLayersAndItsRangeTheViews)
+{
+	ipc::Submission submission = submissionOf(ipc::LayerType::projection, 0);
+	submission.layers[0].views[1].depth = {.image = {.swapchain = 7}, .testedFrom = 0.5f, .testedTo = 3};
+	EXPECT_FALSE(layersOf(submission)[0].depthTest);
+	submission.layers[0].depthTest = {.given = 1, .compareOp = 4, .writes = 1};
+	const PanelLayer layer = layersOf(submission)[0];
+	ASSERT_TRUE(layer.depthTest);
+	EXPECT_EQ(layer.depthTest->compare, VK_COMPARE_OP_GREATER);
+	EXPECT_TRUE(layer.depthTest->writes);
+	EXPECT_EQ(layer.projection[1]->depth->testedFrom, 0.5f);
+	EXPECT_EQ(layer.projection[1]->depth->testedTo, 3);
+}
+
 TEST(Layers, AQuadWhoseRowsGoUpIsTurnedOver)
 {
 	const auto down = contentOf(submissionOf(ipc::LayerType::quad, 0), 1), up = contentOf(submissionOf(ipc::LayerType::quad, 1), 1);

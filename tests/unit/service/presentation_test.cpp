@@ -170,6 +170,15 @@ TEST(Presentation, AKeyIsTheLayersOwn)
 	EXPECT_FALSE(content->layers[1].key);
 }
 
+TEST(Presentation, AnOpacityIsOfAnAlphaThatCountsByItsBlendFactors)
+{
+	ipc::Submission submission = submissionOf("q");
+	submission.layers[0].blend.given = 1;
+	const auto faded = contentOf(submission, 1, forcing(ipc::Forced::underlay, 0.25f));
+	EXPECT_EQ(faded->layers[0].colorScale.a, 0.25f);
+	EXPECT_EQ(faded->layers[0].colorBias.a, 0) << "where the image is empty it stays so";
+}
+
 TEST(Presentation, WithAKeyTheLowestLayersAlphaCountsOnlyWhereItDid)
 {
 	constexpr XrCompositionLayerFlags straight = sourceAlpha | XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT;
@@ -180,6 +189,9 @@ TEST(Presentation, WithAKeyTheLowestLayersAlphaCountsOnlyWhereItDid)
 	EXPECT_EQ(flagsOf(opaque, sourceAlpha, 1), sourceAlpha);
 	EXPECT_EQ(flagsOf(opaque, straight, 0), straight);
 	EXPECT_EQ(flagsOf(alphaBlend, sourceAlpha, 0), sourceAlpha);
+	Presentation overlay = forcing(ipc::Forced::chroma);
+	overlay.overlay = true;
+	EXPECT_EQ(contentOf(submissionOf("q", opaque, sourceAlpha), 1, overlay)->layers[0].flags, sourceAlpha) << "others are below it";
 }
 
 } // namespace
