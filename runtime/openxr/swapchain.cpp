@@ -13,6 +13,9 @@ namespace
 constexpr uint32_t usualImages = 3;
 /// How often a wait looks whether the compositor has let go: no wake-up crosses the process boundary.
 constexpr XrDuration lookAgain = 200 * microsecond;
+/// How long, in refreshes, an image that is being shown is waited for where the application has released others: one of its threads may be
+/// about to show one of those.
+constexpr int64_t patience = 10;
 
 void requireCreateInfo(const XrSwapchainCreateInfo &info, const ipc::Welcome &welcome)
 {
@@ -152,8 +155,9 @@ std::optional<uint64_t> Swapchain::toRelinquish(Turns &turns, XrTime now) const
 {
 	if (!turns.waitingSince) turns.waitingSince = now;
 	const XrDuration refresh = std::clamp<XrDuration>(session.instance.service.timing().displayPeriod, millisecond, 100 * millisecond);
+	const XrDuration enough = turns.queue.allAcquired() ? refresh : patience * refresh;
 	const uint64_t frame = turns.queue.lastFrame(turns.queue.toWaitFor());
-	if (!turns.queue.allAcquired() || now - *turns.waitingSince < refresh || frame <= turns.relinquished) return std::nullopt;
+	if (now - *turns.waitingSince < enough || frame <= turns.relinquished) return std::nullopt;
 	turns.relinquished = frame;
 	return frame;
 }

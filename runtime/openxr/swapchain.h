@@ -67,7 +67,7 @@ private:
 	};
 	uint64_t oldestHeld() const;
 	bool isFree(const ImageQueue &queue, uint32_t image) const { return queue.isFree(image, oldestHeld()); }
-	/// The submission to ask the compositor to give up: the application holds everything else and has waited for a refresh.
+	/// The submission to ask the compositor to give up: the application has waited long enough, and who waits submits no other.
 	std::optional<uint64_t> toRelinquish(Turns &turns, XrTime now) const;
 
 	const gpu::ImageSpec spec_;

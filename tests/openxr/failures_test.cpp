@@ -145,6 +145,31 @@ TEST_F(FakeSession, PollingForTheImageThatIsShownGivesItUp)
 	EXPECT_EQ(service.record().relinquished, (std::vector<uint64_t>{1, 2}));
 }
 
+/// xrWaitSwapchainImage: images may be acquired ahead, the shown one among them. Who waits for it shows no other meanwhile.
+TEST_F(FakeSession, AWaitForTheImageThatIsShownEndsThoughOthersWereReleased)
+{
+	const Rescue rescue(service);
+	service.client().oldestHeldFrame = 1; // the compositor shows frame 1 until it is told something else
+	service.system().timing.write({.displayPeriod = millisecond});
+	Swapchain &images = swapchain(session());
+	images.acquire();
+	images.acquire();
+	const auto draw = [&] {
+		ASSERT_TRUE(images.wait(0));
+		images.release();
+	};
+	draw();
+	images.noteSubmitted(0, 1);
+	images.acquire();
+	EXPECT_EQ(images.acquire(), 0u);
+	draw();
+	draw();
+	const XrTime begin = realTime();
+	EXPECT_TRUE(images.wait(XR_INFINITE_DURATION));
+	EXPECT_GE(realTime() - begin, 10 * millisecond) << "what another thread has drawn may be shown any moment";
+	EXPECT_EQ(service.record().relinquished, (std::vector<uint64_t>{1}));
+}
+
 /// A thread that waits for the service when that dies is told at once, not when the heartbeat is missed.
 struct DyingService : FakeSession {
 	void expectTheEndOf(const std::function<void()> &wait)
