@@ -241,6 +241,27 @@ TEST_F(HeadlessSession, TimesConvertBothWaysOnAScaledClock)
 			  XR_ERROR_TIME_INVALID);
 }
 
+/// xrConvertTimespecTimeToTimeKHR, xrConvertTimeToTimespecTimeKHR: whatever the clocks' anchors and rate, no number overflows.
+TEST_F(HeadlessSession, TimesBeyondTheOtherClocksLastAreInvalid)
+{
+	const auto toTimespec = get<PFN_xrConvertTimeToTimespecTimeKHR>("xrConvertTimeToTimespecTimeKHR");
+	const auto toTime = get<PFN_xrConvertTimespecTimeToTimeKHR>("xrConvertTimespecTimeToTimeKHR");
+	const timespec latest{.tv_sec = INT64_MAX / second - 1, .tv_nsec = 0};
+	timespec real{};
+	XrTime time = 0;
+	for (const double rate : {1.0, 0.25}) {
+		service.system().clock.write({5 * second, second, rate});
+		EXPECT_EQ(toTimespec(application.instance, INT64_MAX, &real), XR_ERROR_TIME_INVALID) << rate;
+	}
+	for (const double rate : {1.0, 4.0}) {
+		service.system().clock.write({second, 5 * second, rate});
+		EXPECT_EQ(toTime(application.instance, &latest, &time), XR_ERROR_TIME_INVALID) << rate;
+	}
+	service.system().clock.write({});
+	ASSERT_EQ(toTime(application.instance, &latest, &time), XR_SUCCESS);
+	EXPECT_EQ(time, latest.tv_sec * second);
+}
+
 TEST_F(HeadlessSession, ActionsWithoutControllers)
 {
 	XrActionSetCreateInfo setInfo{XR_TYPE_ACTION_SET_CREATE_INFO, nullptr, "game", "Game", 0};
