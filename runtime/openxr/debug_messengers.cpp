@@ -17,6 +17,7 @@ public:
 		for (const std::string &label : labelNames_) labels_.push_back({XR_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, label.c_str()});
 		data_.objectCount = uint32_t(objects_.size());
 		data_.objects = objects_.data();
+		if (!data_.sessionLabels) data_.sessionLabelCount = 0; // as an application may say of an array that it has not
 		if (labels_.empty()) return;
 		data_.sessionLabelCount = uint32_t(labels_.size());
 		data_.sessionLabels = labels_.data();

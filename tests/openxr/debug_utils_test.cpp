@@ -92,6 +92,23 @@ TEST_F(DebugMessenger, HearsWhatIsSubmittedToItsOwnInstance)
 	EXPECT_EQ(other.takeHeard(), "");
 }
 
+/// xrSubmitDebugUtilsMessageEXT
+TEST_F(DebugMessenger, IsToldOfNoObjectsAndLabelsWhereTheArraysAreNull)
+{
+	Listener listener(XR_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT);
+	const XrDebugUtilsMessengerCallbackDataEXT data{.type = XR_TYPE_DEBUG_UTILS_MESSENGER_CALLBACK_DATA_EXT,
+													.functionName = "here",
+													.message = "text",
+													.objectCount = 1,
+													.sessionLabelCount = 1};
+	EXPECT_EQ(listener.get<PFN_xrSubmitDebugUtilsMessageEXT>("xrSubmitDebugUtilsMessageEXT")(
+				  listener.application.instance, XR_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT, XR_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT,
+				  &data),
+			  XR_SUCCESS);
+	EXPECT_EQ(listener.takeHeard(), "here: text\n");
+	EXPECT_TRUE(listener.names.empty() && listener.labels.empty());
+}
+
 /// What names and labels are told to: the application's one session, which is the object of every message.
 struct DebugAnnotation : DebugMessenger {
 	const Listener listener{XR_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT};
