@@ -48,7 +48,7 @@ public:
 	const std::filesystem::path &path() const { return path_; }
 	std::filesystem::path write(const std::string &name, Bytes bytes) const
 	{
-		const std::filesystem::path file = path_ / name;
+		std::filesystem::path file = path_ / name;
 		std::filesystem::create_directories(file.parent_path());
 		std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char *>(bytes.data()), std::streamsize(bytes.size()));
 		return file;

@@ -2,6 +2,7 @@
 #pragma once
 #include "runtime/openxr/space.h"
 #include "runtime/openxr/swapchain.h"
+#include "runtime/openxr/vulkan/vulkan_images.h"
 #include "tests/openxr/fake_service.h"
 #include <gtest/gtest.h>
 
@@ -20,15 +21,20 @@ public:
 	explicit FakeGraphics(const FakeDevice &device) : device_(device) {}
 	std::array<uint8_t, 16> deviceUuid() const override { return {}; }
 	std::array<uint8_t, 16> driverUuid() const override { return {}; }
-	std::vector<int64_t> formatsOf(std::span<const int32_t>) const override { return {VK_FORMAT_R8G8B8A8_SRGB}; }
+	std::vector<int64_t> formatsOf(std::span<const int32_t> vulkan) const override { return {vulkan.begin(), vulkan.end()}; }
 	gpu::ImageSpec specOf(const XrSwapchainCreateInfo &info, ipc::Sharing) const override
 	{
-		return {.format = int32_t(info.format), .width = info.width, .height = info.height};
+		return {.format = int32_t(info.format),
+				.createFlags = info.faceCount == 6 ? uint32_t(VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT) : 0u,
+				.width = info.width,
+				.height = info.height,
+				.arrayLayers = info.arraySize * info.faceCount,
+				.mipLevels = info.mipCount};
 	}
-	std::unique_ptr<SwapchainImages> import(const gpu::ImageSpec &, const SharedMemory &) override
+	std::unique_ptr<SwapchainImages> import(const gpu::ImageSpec &, const SharedMemory &memory) override
 	{
 		if (device_.importFails) throw Error(XR_ERROR_RUNTIME_FAILURE, "the test lets the import fail");
-		return std::make_unique<Images>(device_);
+		return std::make_unique<Images>(device_, uint32_t(memory.fds.size()));
 	}
 
 private:
@@ -38,8 +44,11 @@ private:
 		const FakeDevice &device;
 	};
 	struct Images final : SwapchainImages {
-		explicit Images(const FakeDevice &on) : device(on) {}
-		void describe(std::span<XrSwapchainImageBaseHeader *const>) const override {}
+		Images(const FakeDevice &on, uint32_t count) : device(on)
+		{
+			for (uintptr_t i = 1; i <= count; ++i) images.push_back(reinterpret_cast<VkImage>(i)); // NOLINT(performance-no-int-to-ptr)
+		}
+		void describe(std::span<XrSwapchainImageBaseHeader *const> elements) const override { describeImages(elements, images); }
 		void takeOver(uint32_t) override
 		{
 			if (device.submitFails) throw Error(XR_ERROR_RUNTIME_FAILURE, "the test lets the submission fail");
@@ -51,6 +60,7 @@ private:
 		}
 		size_t elementSize() const override { return sizeof(XrSwapchainImageVulkanKHR); }
 		const FakeDevice &device;
+		std::vector<VkImage> images;
 	};
 
 	const FakeDevice &device_;

@@ -85,8 +85,9 @@ void FakeService::accept(const std::stop_token &stop)
 
 void FakeService::start(std::shared_ptr<ipc::Socket> socket, void (FakeService::*work)(ipc::Socket &, const std::stop_token &))
 {
+	const auto connections = connections_.lock(); // whom it serves is among them before it is served
 	std::jthread thread([this, socket, work](const std::stop_token &stop) { (this->*work)(*socket, stop); });
-	connections_.lock()->push_back({std::move(socket), std::move(thread)});
+	connections->push_back({std::move(socket), std::move(thread)});
 }
 
 void FakeService::readFrames() { start(std::make_shared<ipc::Socket>(std::move(unread_.value())), &FakeService::serveFrames); }
@@ -95,6 +96,16 @@ void FakeService::hangUp()
 {
 	const auto connections = connections_.lock();
 	for (const Connection &connection : *connections) connection.socket->hangUp();
+}
+
+void FakeService::forgetClients()
+{
+	hangUp();
+	std::vector<Connection> ended;
+	connections_.update([&](std::vector<Connection> &connections) { ended.swap(connections); });
+	ended.clear(); // each thread is told to stop and joined
+	client_->eventCount = client_->oldestHeldFrame = 0;
+	record_.update([](Record &record) { record = {}; });
 }
 
 void FakeService::send(const ipc::Event &event)
@@ -120,8 +131,15 @@ void FakeService::serve(ipc::Socket &socket, const std::stop_token &stop)
 	}
 }
 
+void FakeService::watch(const ipc::Received &received, bool isFrame)
+{
+	const Watch watcher = *watch_.lock();
+	watcher(received, isFrame);
+}
+
 void FakeService::answer(ipc::Socket &socket, const ipc::Received &received)
 {
+	watch(received, false);
 	if (const auto hello = received.as<ipc::Hello>()) {
 		if (deaf_ > 0 && deaf_-- > 0) return socket.hangUp();
 		record_.update([&](Record &record) { record.hellos.push_back(*hello); });
@@ -174,6 +192,7 @@ void FakeService::serveFrames(ipc::Socket &socket, const std::stop_token &stop)
 	for (ipc::Transfer transfer = ipc::Transfer::timeout; transfer != ipc::Transfer::hungUp && !stop.stop_requested();) {
 		transfer = socket.receive(received, realTime() + second / 10);
 		if (transfer != ipc::Transfer::done || !answering_) continue;
+		watch(received, true);
 		record_.update([&](Record &record) { record.frameMessages.push_back(received.header()->type); });
 		if (const auto wait = received.as<ipc::WaitFrame>()) {
 			record_.update([&](Record &record) { record.waits.push_back(wait->header.sequence); });

@@ -49,10 +49,15 @@ public:
 	/// images of VK_FORMAT_R8G8B8A8_SRGB.
 	using Grant = std::function<UniqueFd(ipc::SessionCreated &)>;
 	void setGrant(Grant grant) { *grant_.lock() = std::move(grant); }
+	/// Looks at every message before it is answered, in the thread of its connection; `isFrame`: it came through a session's frame channel.
+	using Watch = std::function<void(const ipc::Received &message, bool isFrame)>;
+	void setWatch(Watch watch) { *watch_.lock() = std::move(watch); }
 	/// What CreateSession is answered with from now on.
 	void refuseSessions(XrResult result) { refusal_ = result; }
 	/// Ends every connection as a process that is killed does.
 	void hangUp();
+	/// As before the first of them, whose processes are gone: a service that lives on for further ones. What was set stays set.
+	void forgetClients();
 
 	// ---- what the library sent
 	struct Record {
@@ -77,6 +82,7 @@ private:
 	void accept(const std::stop_token &stop);
 	void serve(ipc::Socket &socket, const std::stop_token &stop);
 	void serveFrames(ipc::Socket &socket, const std::stop_token &stop);
+	void watch(const ipc::Received &received, bool isFrame);
 	void answer(ipc::Socket &socket, const ipc::Received &received);
 	void beat(const std::stop_token &stop);
 	struct Connection {
@@ -100,6 +106,7 @@ private:
 		created.formats[0] = 43;
 		return UniqueFd();
 	}};
+	Guarded<Watch> watch_{[](const ipc::Received &, bool) {}};
 	std::optional<ipc::Socket> unread_; ///< the service's end of a frame channel
 	Guarded<Record> record_;
 	Guarded<std::vector<Connection>> connections_;
