@@ -8,7 +8,7 @@ namespace
 {
 
 /// How often a wait for the service, or for the application's own next frame, looks whether the service still lives (real time).
-constexpr XrDuration lookAround = 50 * millisecond;
+constexpr XrDuration lookAround = 20 * millisecond;
 /// A process that dies closes its sockets one after the other (real time): the one for frames may be the first.
 constexpr XrDuration bothEnd = 20 * millisecond;
 /// How long the service may leave a frame channel unread that is full (real time).

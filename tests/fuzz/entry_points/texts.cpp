@@ -9,7 +9,7 @@ namespace
 {
 
 // The corpus names them by their places: new ones belong at the end.
-constexpr std::array<const char *, 40> paths{
+constexpr std::array<const char *, 40> pathTexts{
 	"/user/hand/left",
 	"/user/hand/right",
 	"/user/head",
@@ -54,7 +54,7 @@ constexpr std::array<const char *, 40> paths{
 
 std::string_view usual(std::string_view name)
 {
-	if (name == "pathString") return paths[13];
+	if (name == "pathString") return pathTexts[13];
 	if (name == "name") return "xrPollEvent";
 	if (name == "enabledApiLayerNames" || name == "layerName") return "XR_APILAYER_none";
 	if (name == "enabledExtensionNames") return "XR_MND_headless";
@@ -69,7 +69,7 @@ std::string known(std::string_view name, size_t number)
 		const auto names = openxr::functionNames();
 		return names[number % names.size()];
 	}
-	return paths[number % paths.size()];
+	return pathTexts[number % pathTexts.size()];
 }
 
 /// Anything but the byte that ends a text.
@@ -82,12 +82,12 @@ std::string bytes(Choices &choices, size_t count)
 
 } // namespace
 
-std::span<const char *const> knownPaths() { return paths; }
+std::span<const char *const> knownPaths() { return pathTexts; }
 
 uint64_t knownPath(std::string_view text)
 {
-	const auto found = std::ranges::find(paths, text);
-	return found == paths.end() ? 0 : uint64_t(found - paths.begin()) + 1;
+	const auto found = std::ranges::find(pathTexts, text);
+	return found == pathTexts.end() ? 0 : uint64_t(found - pathTexts.begin()) + 1;
 }
 
 std::string chooseText(Choices &choices, std::string_view name, unsigned &made)

@@ -10,7 +10,7 @@ namespace
 
 constexpr XrDuration patience = second;
 
-std::vector<UniqueFd> makeImages(const ipc::CreateSwapchain &create, ipc::SwapchainCreated &)
+std::vector<UniqueFd> imagesOf(const ipc::CreateSwapchain &create, ipc::SwapchainCreated &)
 {
 	std::vector<UniqueFd> images;
 	for (uint32_t i = 0; i < create.imageCount; ++i) images.emplace_back(::dup(STDERR_FILENO));
@@ -57,7 +57,7 @@ float unit(Choices &choices) { return float(choices.byte()) / 128 - 1; }
 
 } // namespace
 
-World::World() : service_(FakeService::usualWelcome(), makeImages)
+World::World() : service_(FakeService::usualWelcome(), imagesOf)
 {
 	for (XrTime time = posesBegin; time <= posesEnd; time += millisecond)
 		service_.poses().push({time, rotationAbout({0, 1, 0}, inSeconds(time - posesBegin)), {0, 1, 0}, {0, 0, 0}});
