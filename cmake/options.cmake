@@ -76,8 +76,8 @@ function(arift_test name)
   # Properties are set by a file that CTest reads after discovery: passed to gtest_discover_tests, a list falls apart.
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. TEST_LIST test_${name}_cases DISCOVERY_MODE PRE_TEST)
   set(serial OFF)
-  if("e2e" IN_LIST TEST_LABELS AND NOT ARIFT_SANITIZE)
-    set(serial ON) # whole systems that live by the clock: one at a time, but where sanitizers make everything slow in any case
+  if(("e2e" IN_LIST TEST_LABELS OR "timed" IN_LIST TEST_LABELS) AND NOT ARIFT_SANITIZE)
+    set(serial ON) # whole systems that live by the clock, and calls that are timed: one at a time, but where sanitizers make everything slow in any case
   endif()
   set(properties ${CMAKE_CURRENT_BINARY_DIR}/test_${name}_properties.cmake)
   file(CONFIGURE OUTPUT ${properties} @ONLY CONTENT [[
